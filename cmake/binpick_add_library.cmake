@@ -1,0 +1,32 @@
+# binpick_add_library(<folder> [DEPS <folder>...] [PRIVATE_DEPS <target>...])
+# One folder, one static library, one target binpick::<folder>. DEPS are other folders (public); PRIVATE_DEPS are third
+# parties that no public header may show, so their headers are system headers of this folder's .cpp files only.
+function(binpick_add_library folder)
+  cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  set(target binpick_${folder})
+  if(NOT sources)
+    file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp" "")
+    set(sources "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp")
+  endif()
+  add_library(${target} STATIC ${sources})
+  add_library(binpick::${folder} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
+  list(TRANSFORM ARG_DEPS PREPEND "binpick::")
+  target_link_libraries(${target} PUBLIC binpick_flags Eigen3::Eigen ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# binpick_add_tests(<folder> [DEPS <target>...]): every tests/<folder>/*_test.cpp in one executable <folder>_tests.
+# A file's label is "unit" unless its name says otherwise: *_property_test.cpp, *_contract_test.cpp.
+function(binpick_add_tests folder)
+  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp")
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(${folder}_tests ${sources})
+  target_link_libraries(${folder}_tests PRIVATE binpick_flags ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${folder}_tests PRIVATE BINPICK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${folder} COMMAND ${folder}_tests)
+  set_tests_properties(${folder} PROPERTIES LABELS unit)
+endfunction()

@@ -1,0 +1,58 @@
+# Every third party, found once, as imported (so system-header) targets. Traps are named where they bite.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+
+pkg_check_modules(YAMLCPP REQUIRED IMPORTED_TARGET yaml-cpp)
+find_package(nlohmann_json REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(assimp REQUIRED)
+find_package(PNG REQUIRED)
+find_package(TIFF REQUIRED)
+
+# CMake's own FindBullet finds only the single-precision libraries, and mixing precisions is an ABI error.
+pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+add_library(binpick_bullet INTERFACE)
+target_link_libraries(binpick_bullet INTERFACE PkgConfig::BULLET)
+
+pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+
+# Single OpenCV modules, never ${OpenCV_LIBS}: imgcodecs, videoio and ximgproc pull GPL libraries in Debian.
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc)
+
+# Plain PCL libraries, never ${PCL_LIBRARIES}: that drags VTK in even for the core components.
+find_package(PCL 1.12 REQUIRED COMPONENTS common kdtree search filters features)
+add_library(binpick_pcl INTERFACE)
+target_include_directories(binpick_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(binpick_pcl INTERFACE pcl_common pcl_kdtree pcl_search pcl_filters pcl_features)
+
+find_library(QHULL_R_LIBRARY NAMES qhull_r REQUIRED)
+find_path(QHULL_INCLUDE_DIR libqhull_r/libqhull_r.h REQUIRED)
+add_library(binpick_qhull INTERFACE)
+target_include_directories(binpick_qhull SYSTEM INTERFACE ${QHULL_INCLUDE_DIR})
+target_link_libraries(binpick_qhull INTERFACE ${QHULL_R_LIBRARY})
+
+pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
+
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+add_library(binpick_random123 INTERFACE)
+target_include_directories(binpick_random123 SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
+
+if(BINPICK_WITH_STEP)
+  find_package(OpenCASCADE REQUIRED)
+  add_library(binpick_occt INTERFACE)
+  target_include_directories(binpick_occt SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
+  target_link_libraries(binpick_occt INTERFACE
+    TKSTEP TKXSBase TKSTEPBase TKSTEPAttr TKSTL TKMesh TKFillet TKBool TKBO TKPrim TKShHealing TKTopAlgo TKGeomAlgo TKBRep
+    TKGeomBase TKG3d TKG2d TKMath TKernel)
+endif()
+
+if(BINPICK_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  find_path(KDL_INCLUDE_DIR kdl/chain.hpp REQUIRED)
+  find_library(KDL_LIBRARY NAMES orocos-kdl REQUIRED)
+  add_library(binpick_kdl INTERFACE)
+  target_include_directories(binpick_kdl SYSTEM INTERFACE ${KDL_INCLUDE_DIR})
+  target_link_libraries(binpick_kdl INTERFACE ${KDL_LIBRARY})
+endif()

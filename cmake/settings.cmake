@@ -1,0 +1,26 @@
+# One language, one set of flags. No fast-math, no contraction, no native tuning: the same seed must give the same
+# bits on any x86-64-v3 machine (docs/determinism.md).
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+# -O2 in every preset (Eigen at -O0 is 20 times slower); BP_CHECK does not depend on NDEBUG.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+
+add_library(binpick_flags INTERFACE)
+target_compile_options(binpick_flags INTERFACE
+  -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Werror)
+target_include_directories(binpick_flags INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/binpick>")
+if(BINPICK_SANITIZE)
+  target_compile_options(binpick_flags INTERFACE -fsanitize=${BINPICK_SANITIZE} -fno-sanitize-recover=all
+                                                 -fno-omit-frame-pointer)
+  target_link_options(binpick_flags INTERFACE -fsanitize=${BINPICK_SANITIZE})
+endif()
+
+# A translation unit full of PCL or Open CASCADE templates takes 1.6 GB: never more than two at once.
+set_property(GLOBAL PROPERTY JOB_POOLS heavy=2)

@@ -1,0 +1,51 @@
+// What a pose estimator returns: every instance it believes in, best first, and where its time went.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/bin_spec.hpp"
+#include "core/depth_frame.hpp"
+#include "core/point_cloud.hpp"
+#include "core/pose.hpp"
+
+namespace binpick {
+
+/// What an estimator is given: all as believed by the cell, never the truth.
+struct SceneView {
+  std::variant<DepthFrame, PointCloud> seen;  ///< a cloud is in C
+  std::optional<BinSpec> bin;
+  Pose X_CB = Pose::Identity();  ///< believed pose of the bin; meaningful only with `bin`
+};
+
+struct PoseEstimate {
+  std::size_t part = 0;          ///< index into the parts given to prepare()
+  Pose X_CP = Pose::Identity();
+  double score = 0;              ///< 0 .. 1, larger is better
+  double fit_rms = 0;            ///< m, RMS distance of explained scene points from the model's surface
+  double inlier_fraction = 0;    ///< explained / visible model points
+  Matrix6d covariance = Matrix6d::Zero();  ///< of log_se3(X_CP^-1 X_CP_true) twists: translation m, rotation rad, in P
+};
+
+/// Wall times in seconds, named as in the paper's Table 4. They decide nothing and enter no hash.
+struct StageTimes {
+  double preprocess = 0;
+  double voting = 0;
+  double verification = 0;
+  double icp = 0;
+  double total = 0;
+};
+
+enum class EstimateStatus { kFound, kNothingFound, kFailed };
+
+struct EstimateResult {
+  EstimateStatus status = EstimateStatus::kNothingFound;
+  std::vector<PoseEstimate> estimates;  ///< best first
+  StageTimes wall;
+  std::string message;  ///< why it failed, when it did
+};
+
+}  // namespace binpick

@@ -1,0 +1,34 @@
+// Intervals and quantiles.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/random.hpp"
+
+namespace binpick {
+
+struct Interval {
+  double low = 0;
+  double high = 1;
+};
+
+/// Wilson score interval of hits / total; [0, 1] when total is 0.
+Interval wilson_interval(std::size_t hits, std::size_t total, double confidence = 0.95);
+
+/// Hits and trials of one pile.
+struct ClusterCount {
+  double hits = 0;
+  double total = 0;
+};
+/// Percentile bootstrap of sum(hits) / sum(total) over whole piles. With fewer than two piles, or when every pile
+/// agrees (all hits or none), it falls back to the Wilson interval of the pooled counts, which is then the honest one.
+Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples = 4000, double confidence = 0.95);
+
+/// Linear interpolation between order statistics (type 7); NaN for an empty sample.
+double quantile(std::vector<double> values, double q);
+double mean(std::span<const double> values);
+
+}  // namespace binpick

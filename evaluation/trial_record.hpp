@@ -1,0 +1,67 @@
+// One trial as data: what happened at every pick, in a canonical JSON line. The hashed part is byte-equal for the same
+// scenario and seed on any worker count; wall times sit in their own object `wall` and take part in no comparison.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pick_outcome.hpp"
+#include "core/pose_estimate.hpp"
+#include "core/random.hpp"
+#include "evaluation/matching.hpp"
+
+namespace binpick {
+
+inline constexpr int kRecordSchema = 1;
+
+struct PickRecord {
+  PickOutcome outcome = PickOutcome::kNoDetection;
+  std::string reason;                        ///< one phrase, e.g. why no candidate survived
+  PoseCheck check;                           ///< every estimate of this look against the truth
+  std::optional<std::size_t> chosen;         ///< estimate that the plan picked
+  std::optional<std::size_t> lifted_body;    ///< heap index of the part that left the bin with the tool
+  std::map<std::string, int> rejections;     ///< reason -> number of rejected candidates
+  double sim_time = 0;                       ///< s, simulated motion + vacuum + exposure
+  double motion_time = 0;                    ///< s of it, moving robot (Table 4)
+  std::optional<double> place_error;         ///< m, of the released part's centre against the planned one
+  std::optional<double> place_rotation;      ///< rad
+  double swing = 0;                          ///< rad, largest tilt of the held part against the tool
+  double peak_force = 0;                     ///< N, largest pull seen by the grip
+  int neighbours_moved = 0;                  ///< parts that moved by more than 5 mm while the target was lifted
+  std::uint64_t frame_hash = 0;
+  std::uint64_t estimates_hash = 0;
+  std::uint64_t world_hash = 0;              ///< after the pick
+  StageTimes wall;                           ///< s, outside the hash
+  double plan_wall = 0;                      ///< s, outside the hash
+};
+
+struct TrialRecord {
+  int schema = kRecordSchema;
+  std::string scenario;
+  std::string scenario_hash;
+  Seed seed;                                 ///< the campaign's seed number is seed.key
+  int dropped = 0;                           ///< parts dropped
+  int placed = 0;                            ///< parts at rest in the tray at the end
+  int escaped = 0;                           ///< parts outside the bin before the first pick
+  bool settled = true;
+  double settle_time = 0;                    ///< s simulated until the heap was at rest
+  double worst_penetration = 0;              ///< m, deepest contact at rest
+  std::uint64_t drop_hash = 0;
+  std::vector<PickRecord> picks;
+  std::string error;                         ///< text of an InternalError
+  double wall_total = 0;                     ///< s, outside the hash
+};
+
+/// Canonical JSON, one line without the newline: {"schema":..,...,"hash":"..","wall":{..}}. Doubles read back exactly.
+std::string to_json_line(const TrialRecord& record);
+/// Throws SpecError naming `place` (file:line).
+TrialRecord trial_record_from_json(const std::string& line, const std::string& place);
+/// Hash of everything but wall times: what replays are compared by.
+std::uint64_t record_hash(const TrialRecord& record);
+/// All records of a run folder (records/*.jsonl), sorted by seed. Throws SpecError, AssetError.
+std::vector<TrialRecord> read_records(const std::string& run_folder);
+
+}  // namespace binpick

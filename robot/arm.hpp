@@ -1,0 +1,55 @@
+// A 6-joint serial arm from a URDF: joints, limits, link shapes, forward kinematics. R is the robot base (the URDF's root
+// link), F the flange (its tip link). Joint vectors are radians in URDF order and sign.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/primitive.hpp"
+
+namespace binpick {
+
+struct JointLimits {
+  double lower = 0, upper = 0;  ///< rad
+  double speed = 0;             ///< rad/s
+};
+
+/// Spherical-wrist geometry in the parameters of Brandstoetter, Angerer, Hofbaur 2014 (OPW); physical_models C1, C3.
+struct OpwParameters {
+  double a1 = 0, a2 = 0, b = 0, c1 = 0, c2 = 0, c3 = 0, c4 = 0;  ///< m
+  std::array<double, 6> offset{};                                ///< rad: q_opw = sign * q - offset
+  std::array<int, 6> sign{1, 1, 1, 1, 1, 1};
+};
+
+class Arm {
+ public:
+  static Arm load(const std::string& urdf_path);  ///< throws AssetError
+
+  Pose forward(const Vector6d& q) const;                 ///< X_RF
+  std::vector<Pose> link_poses(const Vector6d& q) const; ///< X_RL of every link, base first
+  /// Collision primitives of every link, in the link's frame L; same order as link_poses.
+  const std::vector<std::vector<Primitive>>& link_shapes() const { return link_shapes_; }
+  const std::vector<std::string>& link_names() const { return link_names_; }
+  const std::array<JointLimits, 6>& limits() const { return limits_; }
+  bool within_limits(const Vector6d& q, double margin = 0) const;
+  const OpwParameters& opw() const { return opw_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  struct Joint {
+    Pose X_before = Pose::Identity();  ///< fixed pose of the joint frame in its parent link
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  };
+  std::string name_;
+  std::vector<std::string> link_names_;
+  std::array<Joint, 6> joints_;
+  Pose X_6F_ = Pose::Identity();  ///< flange in the last moving link
+  std::array<JointLimits, 6> limits_;
+  std::vector<std::vector<Primitive>> link_shapes_;
+  OpwParameters opw_;
+};
+
+}  // namespace binpick

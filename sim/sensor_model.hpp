@@ -1,0 +1,45 @@
+// The interface of the sensor models: exact frame -> what the camera would have delivered. One .cpp file a model in
+// sim/sensors/, one line in sim/sensors/registry.cpp; the model object is its own configuration (visit), so a scene
+// chooses it with `sensor: {type: disparity, preset: d435_848}`.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/depth_frame.hpp"
+#include "core/random.hpp"
+#include "sim/depth_renderer.hpp"
+
+namespace binpick {
+
+class SensorModel {
+ public:
+  virtual ~SensorModel() = default;
+  virtual void visit(ConfigVisitor& v) = 0;  ///< its parameters
+  virtual void validate() const = 0;         ///< throws SpecError
+  /// The intrinsics of its preset, used when the scene's camera gives none.
+  virtual PinholeCamera default_camera() const = 0;
+  /// Depth range in m that the model delivers; the renderer's near and far planes follow it.
+  virtual double z_min() const = 0;
+  virtual double z_max() const = 0;
+  /// The noise its data sheet states.
+  virtual StatedNoise stated_noise() const = 0;
+  /// `camera_seed` fixes what stays with the unit (bias, the fixed share of the noise), `frame_seed` what changes.
+  /// Depth lies on the sensor's own grid, NaN = no return, and no value depends on the order of pixels.
+  virtual Image<float> capture(const ExactFrame& exact, const PinholeCamera& camera, Seed camera_seed,
+                               Seed frame_seed) const = 0;
+};
+
+/// One row of the table of sensor models.
+struct SensorEntry {
+  std::string name;
+  std::string help;
+  std::unique_ptr<SensorModel> (*make)();
+};
+const std::vector<SensorEntry>& sensor_registry();
+std::vector<std::string> sensor_names();
+std::unique_ptr<SensorModel> make_sensor(const std::string& name);  ///< throws SpecError with the nearest name
+
+}  // namespace binpick

@@ -1,0 +1,82 @@
+// The physics world: free, fixed and moved bodies, a step that follows the state by a stated rule, poses, rays, state hash.
+// SI outside; scale, margin and P <-> M stay inside (bullet_convert.hpp). A fresh World for every trial; never reset one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/part.hpp"
+#include "core/primitive.hpp"
+#include "sim/collision_shape.hpp"
+
+namespace binpick {
+
+/// Settings of reference bullet_settings.md, each with its reason in world.cpp.
+struct PhysicsConfig {
+  double gravity = 9.81;             ///< m/s^2
+  double fine_step = 1.0 / 1000;     ///< s, while any awake part is fast
+  double coarse_step = 1.0 / 240;    ///< s
+  double fast_speed = 0.3;           ///< m/s: |v| + |w| R above which a part is fast
+  int iterations = 50;
+  double margin = 0.2e-3;            ///< m, collision margin, planes inset by it
+  double contact_threshold = 2e-3;   ///< m
+  double rolling_friction = 0.1e-3;  ///< m, lever arm on parts
+  void visit(ConfigVisitor& v);
+  void validate() const;
+};
+
+struct SurfaceMaterial {
+  double friction = 0.4;
+  double restitution = 0.1;
+};
+
+using BodyId = int;  ///< index in the order of addition
+
+class World {
+ public:
+  explicit World(const PhysicsConfig& config);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  BodyId add_free(const Part& part, const CollisionShape& shape, const Pose& X_WP);
+  BodyId add_fixed(std::span<const Primitive> shapes_O, const Pose& X_WO, const SurfaceMaterial& material);
+  /// Moved along a given path (kinematic): arm links, tools.
+  BodyId add_moved(std::span<const Primitive> shapes_O, const Pose& X_WO, const SurfaceMaterial& material);
+  /// Where a moved body shall be at the end of the next step.
+  void move_to(BodyId body, const Pose& X_WO);
+  void set_collides(BodyId a, BodyId b, bool collides);
+
+  double step();           ///< one step; returns its length in s
+  double step(double dt);  ///< one step of a stated length (motion in lockstep with the arm)
+  double time() const;
+  int body_count() const;
+  Pose pose(BodyId body) const;            ///< X_WO or X_WP
+  Eigen::Vector3d velocity(BodyId body) const;          ///< m/s, of the mass centre
+  Eigen::Vector3d angular_velocity(BodyId body) const;  ///< rad/s, in W
+  void wake(BodyId body);
+  bool awake(BodyId body) const;
+  double deepest_contact() const;          ///< m, deepest penetration among current contacts, >= 0
+  /// Contacts of a body now: the other body, normal force (N, mean over the last step) and depth (m).
+  struct BodyContact {
+    BodyId other;
+    double force;
+    double depth;
+  };
+  std::vector<BodyContact> contacts(BodyId body) const;
+  std::uint64_t state_hash() const;        ///< of every body's pose and velocity bits
+
+  struct Impl;             ///< shared with hold.cpp and settle.cpp through sim/world_impl.hpp, private to sim
+  Impl& impl() { return *impl_; }
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace binpick
