@@ -45,6 +45,14 @@ Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
+Eigen::Vector3d stored_rpy(const Eigen::Matrix3d& R_AB) {
+  Eigen::Vector3d rpy = rpy_of(R_AB);
+  for (double& angle : rpy) angle = std::round(angle * 1e12) / 1e12;
+  return rpy;
+}
+
+Pose stored_pose(const Pose& X_AB) { return pose_from_xyz_rpy(X_AB.translation(), stored_rpy(X_AB.linear())); }
+
 Eigen::Vector3d log_so3(const Eigen::Matrix3d& R) {
   // Through the quaternion: accurate near 0 (no acos of a number near 1) and near pi.
   Eigen::Quaterniond q(R);

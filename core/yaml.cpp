@@ -1,0 +1,75 @@
+#include "core/yaml.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/file_io.hpp"
+#include "core/yaml_reader.hpp"
+#include "core/yaml_writer.hpp"
+
+namespace binpick {
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
+  for (const std::string& candidate : candidates) {
+    // Levenshtein distance, one row at a time.
+    std::vector<std::size_t> row(candidate.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = std::exchange(row[0], i);
+      for (std::size_t j = 1; j < row.size(); ++j) {
+        const std::size_t replace = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
+        diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replace}));
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+void read_yaml_text(const std::string& text, const std::string& name, const std::string& folder,
+                    const std::function<void(ConfigVisitor&)>& body) {
+  const YamlSource source{name, folder};
+  const YAML::Node root = parse_strictly(text, source);
+  YamlReader reader(root, source, "");
+  try {
+    body(reader);
+  } catch (const SpecError& error) {
+    // Errors of validate() know the key but not the file.
+    const std::string message = error.what();
+    throw SpecError(message.rfind(name, 0) == 0 ? message : name + ": " + message);
+  }
+  reader.check_all_used();
+}
+
+void read_yaml_file(const std::string& path, const std::function<void(ConfigVisitor&)>& body) {
+  std::string text;
+  try {
+    text = read_file(path, std::size_t{1} << 20);
+  } catch (const AssetError& error) {
+    throw SpecError(error.what());
+  }
+  std::error_code ignored;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, ignored).lexically_normal();
+  read_yaml_text(text, path, absolute.parent_path().string(), body);
+}
+
+std::string write_yaml(const std::function<void(ConfigVisitor&)>& body, const std::string& folder) {
+  YamlWriter writer(folder);
+  body(writer);
+  return writer.text();
+}
+
+std::string describe_config(const std::function<void(ConfigVisitor&)>& body) {
+  ConfigDescriber describer;
+  body(describer);
+  return describer.text();
+}
+
+}  // namespace binpick

@@ -1,0 +1,61 @@
+// Private to core: a ConfigVisitor that fills values from one YAML mapping.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/config.hpp"
+
+namespace binpick {
+
+struct YamlSource {
+  std::string name;    ///< the file in messages
+  std::string folder;  ///< what paths are relative to
+};
+
+/// Parses one document whose root is a mapping; refuses anchors, aliases, repeated keys, too many or too deep nodes.
+YAML::Node parse_strictly(const std::string& text, const YamlSource& source);
+
+class YamlReader : public ConfigVisitor {
+ public:
+  /// `prefix` is the dotted path of this mapping, "" for the root.
+  YamlReader(const YAML::Node& node, const YamlSource& source, std::string prefix);
+
+  bool reading() const override { return true; }
+  void field(const char* key, double& value, Unit unit, const char* help) override;
+  void field(const char* key, int& value, const char* help) override;
+  void field(const char* key, bool& value, const char* help) override;
+  void field(const char* key, std::string& value, const char* help) override;
+  void field(const char* key, Eigen::Vector3d& value, Unit unit, const char* help) override;
+  void field(const char* key, std::vector<double>& value, Unit unit, const char* help) override;
+  void field(const char* key, Pose& value, const char* help) override;
+  void choice(const char* key, std::string& value, const std::vector<std::string>& allowed, const char* help) override;
+  void path(const char* key, std::string& value, const char* help) override;
+  void section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) override;
+  void list_with(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
+                 const std::function<void(std::size_t, ConfigVisitor&)>& body, const char* help) override;
+  bool has(const char* key) const override;
+  bool is_scalar(const char* key) const override;
+  void fail(const char* key, const std::string& message) const override;
+
+  /// Throws at the first key of the mapping that nothing asked for.
+  void check_all_used() const;
+
+ private:
+  YAML::Node take(const char* key);
+  double number(const YAML::Node& node, const std::string& key, Unit unit) const;
+  std::vector<double> numbers(const YAML::Node& node, const std::string& key, Unit unit) const;
+  std::string scalar(const YAML::Node& node, const std::string& key) const;
+  std::string dotted(const std::string& key) const;
+  [[noreturn]] void fail_at(const YAML::Mark& mark, const std::string& key, const std::string& message) const;
+
+  YAML::Node node_;
+  YamlSource source_;
+  std::string prefix_;
+  std::set<std::string> asked_;
+};
+
+}  // namespace binpick
