@@ -1,0 +1,39 @@
+// Pictures of a trial: the heap from the side, the depth as the camera saw it, the estimates drawn over the scene, the cup
+// holding the part. They are made on the way and change nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pose_estimate.hpp"
+#include "sim/depth_sensor.hpp"
+#include "trials/cell_world.hpp"
+
+namespace binpick {
+
+/// Colour-mapped depth: near is warm, far is cold, no return is black.
+Image<Rgb> depth_picture(const DepthFrame& frame);
+
+/// Outlines and tints of the estimates over a picture taken from the same camera, numbered best first.
+Image<Rgb> overlay_picture(const Image<Rgb>& base, const DepthFrame& frame, const std::vector<PoseEstimate>& estimates,
+                           std::span<const Part> parts);
+
+/// Collects the pictures of one trial in a folder. A failure to write throws StorageError.
+class TrialPictures {
+ public:
+  /// Pictures of the first `looks` looks and picks; 0: none but those of failed picks.
+  TrialPictures(std::string folder, int looks) : folder_(std::move(folder)), looks_(looks) {}
+
+  void look(int pick, DepthRenderer& renderer, const CellWorld& cell_world, const DepthFrame& frame,
+            const EstimateResult& found);
+  void moment(int pick, const char* name, DepthRenderer& renderer, const CellWorld& cell_world);
+  const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  void save(int pick, const std::string& name, const Image<Rgb>& image);
+  std::string folder_;
+  int looks_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace binpick

@@ -1,0 +1,202 @@
+#include "trials/trial.hpp"
+
+#include <chrono>
+
+#include "core/hash.hpp"
+#include "core/error.hpp"
+#include "sim/depth_sensor.hpp"
+
+namespace binpick {
+namespace {
+
+// Wall time: reported beside the result, never part of it.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Observation {
+  SceneView view;
+  Pose X_WC_believed;
+  GroundTruth truth;
+};
+
+std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
+  std::vector<DropItem> items;
+  for (std::size_t p = 0; p < s.parts.size(); ++p)
+    for (int k = 0; k < s.parts[p].count; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
+  seed.child("order").rng().shuffle(items);
+  return items;
+}
+
+// What was true when the frame was taken; instances in the tray or on the table are not part of the question.
+GroundTruth truth_of(const CellWorld& cell_world, const Capture& capture, const Pose& X_WC) {
+  GroundTruth truth;
+  truth.X_WC = X_WC;
+  const DropResult& heap = cell_world.heap();
+  for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
+    if (!cell_world.in_bin(i)) continue;
+    const Visibility& visibility = capture.visibility[i];
+    truth.instances.push_back({heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), visibility.fraction(),
+                               visibility.visible_pixels});
+  }
+  return truth;
+}
+
+Observation observe(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, int pick,
+                    PickRecord& record) {
+  const Pose X_WC = s.cell.camera_pose(cell_world.joints());
+  const Capture capture = capture_depth(*context.renderer, *s.sensor, cell_world.render_scene(),
+                                        cell_world.heap().bodies.size(), s.cell.camera.intrinsics, X_WC, X_WC,
+                                        seed.child("camera"), seed.child("sensor", static_cast<std::uint64_t>(pick)));
+  record.frame_hash = frame_hash(capture.frame);
+  Observation seen;
+  seen.X_WC_believed = capture.frame.X_WC;
+  seen.truth = truth_of(cell_world, capture, X_WC);
+  seen.view.seen = capture.frame;
+  seen.view.bin = s.cell.bin;
+  seen.view.X_CB = capture.frame.X_WC.inverse() * s.cell.X_WB;
+  return seen;
+}
+
+EstimateResult estimate(const Scenario& s, const TrialContext& context, const Observation& seen, Seed seed) {
+  return s.estimator ? s.estimator->estimate(seen.view, seed)
+                     : oracle_estimate(seen.truth, context.parts, s.oracle, seed);  // only the oracle reads truth
+}
+
+std::uint64_t estimates_hash(const EstimateResult& found) {
+  Hasher hasher;
+  for (const PoseEstimate& e : found.estimates)
+    hasher.add(std::uint64_t{e.part}).add(e.X_CP).add(e.score).add(e.fit_rms).add(e.inlier_fraction);
+  return hasher.value();
+}
+
+bool chosen_is_right(const PickRecord& record, std::size_t chosen) {
+  for (const MatchedEstimate& match : record.check.estimates)
+    if (match.estimate == chosen) return match.right;
+  return false;
+}
+
+void execute(const Scenario& s, CellWorld& cell_world, TrialContext& context, const PickPlan& plan, int pick,
+             TrialPictures* pictures, PickRecord& record) {
+  const ExecutionHook hook = [&](const char* moment, const CellWorld& now) {
+    if (pictures) pictures->moment(pick, moment, *context.renderer, now);
+  };
+  const ExecutionResult result = execute_pick(cell_world, plan, s.execution, hook);
+  record.outcome = result.outcome;
+  record.reason = result.reason;
+  record.lifted_body = result.lifted;
+  record.motion_time = result.motion_time;
+  record.sim_time = result.motion_time + result.vacuum_time + s.trial.exposure;
+  record.place_error = result.place_error;
+  record.place_rotation = result.place_rotation;
+  record.swing = result.swing;
+  record.peak_force = result.peak_force;
+  record.neighbours_moved = result.neighbours_moved;
+}
+
+int count_in(const CellWorld& cell_world, bool (CellWorld::*where)(std::size_t) const) {
+  int count = 0;
+  for (std::size_t i = 0; i < cell_world.heap().bodies.size(); ++i) count += (cell_world.*where)(i) ? 1 : 0;
+  return count;
+}
+
+// One turn of the loop: look, estimate, check, plan, pick.
+PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, int pick,
+                     TrialPictures* pictures) {
+  PickRecord record;
+  record.sim_time = s.trial.exposure;
+  const Observation seen = observe(s, cell_world, context, seed, pick, record);
+  const EstimateResult found = estimate(s, context, seen, seed.child("estimator", static_cast<std::uint64_t>(pick)));
+  record.wall = found.wall;
+  record.estimates_hash = estimates_hash(found);
+  record.check = check_poses(found, seen.X_WC_believed, seen.truth, context.parts);  // before the arm moves
+  if (pictures) pictures->look(pick, *context.renderer, cell_world, std::get<DepthFrame>(seen.view.seen), found);
+  if (found.status != EstimateStatus::kFound) {
+    const bool failed = found.status == EstimateStatus::kFailed;
+    record.outcome = failed ? PickOutcome::kEstimatorFailed : PickOutcome::kNoDetection;
+    record.reason = failed ? found.message : "the estimator found nothing";
+    return record;
+  }
+  const Stopwatch planning;
+  const PlanResult plan = plan_pick(found, seen.view, seen.X_WC_believed, s.cell, context.parts, s.planning,
+                                    count_in(cell_world, &CellWorld::in_tray));
+  record.plan_wall = planning.seconds();
+  record.rejections = plan.rejections;
+  record.outcome = plan.outcome;
+  record.reason = plan.reason;
+  if (!plan.plan) return record;
+  record.chosen = plan.plan->estimate;
+  if (s.trial.execute == "only_if_right" && !chosen_is_right(record, *record.chosen)) {
+    record.outcome = PickOutcome::kNoReachablePick;
+    record.reason = "not executed: the chosen estimate is wrong (trial.execute: only_if_right)";
+    return record;
+  }
+  execute(s, cell_world, context, *plan.plan, pick, pictures, record);
+  return record;
+}
+
+void pick_until_done(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, TrialPictures* pictures,
+                     TrialRecord& record) {
+  int failures = 0;
+  for (int pick = 0; pick < s.trial.max_picks && failures < s.trial.failures_in_a_row; ++pick) {
+    if (count_in(cell_world, &CellWorld::in_bin) == 0) break;
+    record.picks.push_back(pick_once(s, cell_world, context, seed, pick, pictures));
+    record.picks.back().world_hash = cell_world.world().state_hash();
+    const bool succeeded = record.picks.back().outcome == PickOutcome::kSucceeded;
+    failures = succeeded ? 0 : failures + 1;
+    if (!succeeded && pictures) pictures->moment(pick, "failed", *context.renderer, cell_world);
+  }
+  record.placed = count_in(cell_world, &CellWorld::in_tray);
+}
+
+void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pictures, TrialRecord& record) {
+  CellWorld cell_world(s.cell, s.physics, context.parts);
+  const DropResult heap = drop_parts(cell_world.world(), drop_order(s, context, seed.child("drop")), s.cell.bin,
+                                     s.cell.X_WB, s.drop, s.settle, seed.child("drop"));
+  cell_world.set_heap(heap);
+  record.dropped = static_cast<int>(heap.bodies.size());
+  record.escaped = static_cast<int>(heap.escaped.size());
+  record.settled = heap.settled;
+  record.settle_time = heap.settle_time;
+  record.worst_penetration = heap.worst_penetration;
+  record.drop_hash = cell_world.world().state_hash();
+  if (heap.settled && heap.escaped.empty()) {
+    pick_until_done(s, cell_world, context, seed, pictures, record);
+    return;
+  }
+  PickRecord unsettled;
+  unsettled.outcome = PickOutcome::kUnsettled;
+  unsettled.reason = heap.settled ? std::to_string(heap.escaped.size()) + " parts fell outside the bin"
+                                  : "the heap was not at rest within the time limit";
+  unsettled.world_hash = record.drop_hash;
+  record.picks.push_back(unsettled);
+}
+
+}  // namespace
+
+TrialRecord run_trial(const Scenario& scenario, Seed seed, TrialContext& context, TrialPictures* pictures) {
+  const Stopwatch watch;
+  TrialRecord record;
+  record.scenario = scenario.name;
+  record.scenario_hash = context.hash;
+  record.seed = seed;
+  try {
+    run(scenario, seed, context, pictures, record);
+  } catch (const StorageError&) {
+    throw;  // a full disk is not a property of the trial
+  } catch (const std::exception& error) {
+    record.error = error.what();
+    PickRecord broken;
+    broken.outcome = PickOutcome::kInternalError;
+    broken.reason = error.what();
+    record.picks.push_back(broken);
+  }
+  record.wall_total = watch.seconds();
+  return record;
+}
+
+}  // namespace binpick

@@ -1,0 +1,36 @@
+#include "trials/trial_context.hpp"
+
+#include "core/error.hpp"
+#include "core/quantity.hpp"
+
+namespace binpick {
+namespace {
+
+// A part fits when it can lie in the bin in some turn about the vertical: its two smaller extents against the floor.
+void check_fits(const Part& part, const BinSpec& bin) {
+  Eigen::Vector3d extent = bounding_box(part.mesh_P).sizes();
+  std::sort(extent.data(), extent.data() + 3);
+  Eigen::Vector2d floor = bin.inner_size.head<2>();
+  std::sort(floor.data(), floor.data() + 2);
+  if (extent[1] >= floor[0] || extent[2] >= floor.norm())
+    throw SpecError("cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " + format_double(floor[0]) +
+                    " m is smaller than the part " + part.name + " (" + format_double(extent[2]) + " x " +
+                    format_double(extent[1]) + " m)");
+}
+
+}  // namespace
+
+TrialContext make_trial_context(Scenario& scenario) {
+  TrialContext context;
+  for (const PartEntry& entry : scenario.parts) {
+    context.parts.push_back(load_part(entry.spec));
+    check_fits(context.parts.back(), scenario.cell.bin);
+    context.shapes.push_back(collision_shape(context.parts.back()));
+  }
+  context.hash = scenario_hash(scenario);
+  context.renderer = make_osmesa_renderer();
+  if (scenario.estimator) scenario.estimator->prepare(context.parts);
+  return context;
+}
+
+}  // namespace binpick

@@ -1,0 +1,25 @@
+// One worker's tools, made once and used for many trials: parts, collision shapes, renderer, prepared estimator. Nothing in
+// it remembers a trial.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/part.hpp"
+#include "sim/collision_shape.hpp"
+#include "sim/depth_renderer.hpp"
+#include "trials/scenario.hpp"
+
+namespace binpick {
+
+struct TrialContext {
+  std::vector<Part> parts;
+  std::vector<CollisionShape> shapes;
+  std::unique_ptr<DepthRenderer> renderer;
+  std::string hash;  ///< scenario_hash
+};
+
+/// Loads every asset, checks that the parts fit the bin, prepares the scenario's estimator. Throws SpecError, AssetError.
+TrialContext make_trial_context(Scenario& scenario);
+
+}  // namespace binpick
