@@ -1,0 +1,59 @@
+// binpick campaign SCENE --seeds A:B --workers K --out DIR: many trials, records, summary, report, pictures.
+
+#include <charconv>
+#include <iostream>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "evaluation/report.hpp"
+#include "tools/commands.hpp"
+#include "trials/campaign.hpp"
+
+namespace binpick {
+namespace {
+
+struct Options {
+  CampaignOptions campaign;
+  std::string seeds = "5000:5010";
+};
+
+int run(Options options) {
+  std::tie(options.campaign.first_seed, options.campaign.end_seed) = parse_seeds(options.seeds);
+  StderrProgress progress;
+  const CampaignResult result = run_campaign(options.campaign, "/proc/self/exe", progress);
+  if (result.worker_exit != 0) return result.worker_exit;
+  std::cout << terminal_table(result.summary) << std::flush;
+  std::cerr << "records, tables and pictures: " << options.campaign.out << "/report.html" << std::endl;
+  if (result.interrupted) return 130;
+  return result.crashed > 0 || result.summary.outcomes.count("InternalError") ? 5 : 0;
+}
+
+}  // namespace
+
+std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  std::uint64_t first = 0, end = 0;
+  const auto read = [](std::string_view part, std::uint64_t& value) {
+    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return !part.empty() && error == std::errc() && stop == part.data() + part.size();
+  };
+  const std::string_view view = text;
+  if (colon == std::string::npos || !read(view.substr(0, colon), first) || !read(view.substr(colon + 1), end) || end <= first)
+    throw SpecError("--seeds '" + text + "': must be A:B with A < B, meaning the seeds A to B-1");
+  if (end - first > 1000000) throw SpecError("--seeds '" + text + "': more than a million trials in one campaign");
+  return {first, end};
+}
+
+Action add_campaign(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("campaign", "many trials: records, intervals, report and pictures");
+  command->add_option("scene", options->campaign.scene, "scene file (YAML)")->required();
+  command->add_option("--seeds", options->seeds, "A:B, the seeds A to B-1")->required();
+  command->add_option("--out", options->campaign.out, "run folder")->required();
+  command->add_option("--workers", options->campaign.workers, "worker processes")->check(CLI::Range(1, 256));
+  command->add_option("--pictured", options->campaign.pictured,
+                      "looks pictured per trial (failed picks always are); -1: no pictures at all");
+  return [options] { return run(*options); };
+}
+
+}  // namespace binpick

@@ -1,0 +1,48 @@
+// binpick list [KIND]: what a scene can choose from, with every parameter, its default, unit and meaning.
+
+#include <iostream>
+
+#include "core/yaml.hpp"
+#include "perception/pose_estimator.hpp"
+#include "robot/gripper.hpp"
+#include "sim/sensor_model.hpp"
+#include "tools/commands.hpp"
+#include "trials/scenario.hpp"
+
+namespace binpick {
+namespace {
+
+template <class Registry>
+void print_registry(const char* title, const Registry& registry) {
+  std::cout << "# " << title << "\n\n";
+  for (const auto& entry : registry) {
+    const auto made = entry.make();
+    std::cout << "## " << entry.name << "\n" << entry.help << "\n\n"
+              << describe_config([&](ConfigVisitor& v) { made->visit(v); }) << "\n";
+  }
+}
+
+void print_scene_keys() {
+  Scenario scenario;
+  scenario.parts.resize(1);
+  std::cout << "# scene keys\n\n" << describe_config([&](ConfigVisitor& v) { scenario.visit(v); }) << "\n";
+}
+
+}  // namespace
+
+Action add_list(CLI::App& app) {
+  auto kind = std::make_shared<std::string>("all");
+  CLI::App* command = app.add_subcommand("list", "sensors, estimators, grippers and scene keys, with their parameters");
+  command->add_option("kind", *kind, "what to list")
+      ->check(CLI::IsMember({"all", "sensors", "estimators", "grippers", "scene"}));
+  return [kind] {
+    const bool all = *kind == "all";
+    if (all || *kind == "sensors") print_registry("sensors", sensor_registry());
+    if (all || *kind == "estimators") print_registry("estimators", estimator_registry());
+    if (all || *kind == "grippers") print_registry("grippers", gripper_registry());
+    if (all || *kind == "scene") print_scene_keys();
+    return 0;
+  };
+}
+
+}  // namespace binpick

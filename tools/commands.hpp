@@ -1,0 +1,23 @@
+// The subcommands of the program. Each adds itself to the parser and returns what to run when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace binpick {
+
+using Action = std::function<int()>;  ///< returns the exit code of ARCHITECTURE section 14
+
+Action add_trial(CLI::App& app);
+Action add_campaign(CLI::App& app);
+Action add_worker(CLI::App& app);
+Action add_report(CLI::App& app);
+Action add_check(CLI::App& app);
+Action add_list(CLI::App& app);
+
+/// "A:B" means seeds A .. B-1. Throws SpecError.
+std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text);
+
+}  // namespace binpick

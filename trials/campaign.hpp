@@ -1,0 +1,36 @@
+// A campaign: one scenario, many seeds, worker processes. The coordinator calls no physics and no GL, so nothing that
+// happens inside a trial can take it down; a worker that dies costs one InternalError record. The run folder is that of
+// ARCHITECTURE section 14; a folder that already holds records of the same scenario is completed, not repeated.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "evaluation/summary.hpp"
+
+namespace binpick {
+
+struct CampaignOptions {
+  std::string scene;
+  std::string out;
+  std::uint64_t first_seed = 0, end_seed = 0;  ///< [first, end)
+  int workers = 1;
+  int pictured = 1;  ///< looks pictured per trial; failed picks always are; negative: no pictures at all
+};
+
+struct CampaignResult {
+  CampaignSummary summary;
+  std::size_t crashed = 0;   ///< workers that died
+  bool interrupted = false;  ///< SIGINT: what was in flight was finished
+  int worker_exit = 0;       ///< 2: the scene could not be loaded; 6: storage
+};
+
+/// `program` is this executable, re-run as `program worker ..`.
+CampaignResult run_campaign(const CampaignOptions& options, const std::string& program, ProgressSink& progress);
+
+/// Writes summary.json, report.html, picks.csv and results.md from the records of a run folder.
+CampaignSummary write_reports(const std::string& run_folder, double wall_seconds);
+
+}  // namespace binpick

@@ -1,0 +1,18 @@
+// One worker process: seeds come in on standard input, one a line; records go out on standard output, one a line. The first
+// line out says that the scene is loaded: {"ready":true,"scenario_hash":..,"renderer":..}.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+namespace binpick {
+
+struct WorkerOptions {
+  std::string scene;
+  std::string artifacts;  ///< folder of pictures, empty: none
+  int pictured = 0;       ///< looks of every trial that are pictured; failed picks always are when `artifacts` is set
+};
+
+void run_worker(const WorkerOptions& options, std::istream& seeds, std::ostream& records);
+
+}  // namespace binpick
