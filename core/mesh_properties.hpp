@@ -22,8 +22,8 @@ struct MassProperties {
 /// Mass properties of a closed mesh (signed tetrahedra, exact for polyhedra).
 MassProperties mass_properties(const TriangleMesh& mesh_P, double density);
 
-/// Every edge is used as often in one direction as in the other: exactly twice on a simple solid, more often where solids
-/// touch along an edge. Vertices at equal positions count as one.
+/// Every edge is used as often in one direction as in the other: exactly twice on a simple solid, more often where
+/// solids touch along an edge. Vertices at equal positions count as one.
 bool is_closed(const TriangleMesh& mesh);
 
 /// Largest distance between two vertices: exact (hull vertices first, then all pairs of those).
@@ -44,13 +44,13 @@ class MeshQuery {
   MeshQuery& operator=(MeshQuery&&) noexcept;
 
   struct Hit {
-    double distance = 0;         ///< along the ray's direction (unit length), or to the closest point
+    double distance = 0;  ///< along the ray's direction (unit length), or to the closest point
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< outward, of the triangle
     std::uint32_t triangle = 0;
   };
-  /// First triangle along origin + t * direction, t in [0, max_distance]; both sides of a triangle count, and a ray never
-  /// slips between two triangles that share an edge. NaN or a zero direction: nothing. `distance` is t.
+  /// First triangle along origin + t * direction, t in [0, max_distance]; both sides of a triangle count, and a ray
+  /// never slips between two triangles that share an edge. NaN or a zero direction: nothing. `distance` is t.
   std::optional<Hit> ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_distance) const;
   /// Closest point of the surface within max_distance.
   std::optional<Hit> closest(const Eigen::Vector3d& point, double max_distance) const;
