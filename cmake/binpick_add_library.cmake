@@ -17,9 +17,9 @@ function(binpick_add_library folder)
 endfunction()
 
 # binpick_add_tests(<folder> [DEPS <target>...]): every tests/<folder>/*_test.cpp in one executable <folder>_tests.
-# A file's label is "unit" unless its name says otherwise: *_property_test.cpp, *_contract_test.cpp.
+# With SANITIZED they also run under the sanitizers (preset asan, target sanitized_tests, label sanitized).
 function(binpick_add_tests folder)
-  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "SANITIZED" "" "DEPS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp")
   if(NOT sources)
     return()
@@ -29,15 +29,8 @@ function(binpick_add_tests folder)
   target_compile_definitions(${folder}_tests PRIVATE BINPICK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${folder} COMMAND ${folder}_tests)
   set_tests_properties(${folder} PROPERTIES LABELS unit)
-endfunction()
-
-# binpick_sanitize_tests(<folder>...): these tests also run under the sanitizers (preset asan, target sanitized_tests).
-function(binpick_sanitize_tests)
-  add_custom_target(sanitized_tests)
-  foreach(folder IN LISTS ARGN)
-    if(TARGET ${folder}_tests)
-      add_dependencies(sanitized_tests ${folder}_tests)
-      set_property(TEST ${folder} APPEND PROPERTY LABELS sanitized)
-    endif()
-  endforeach()
+  if(ARG_SANITIZED)
+    set_tests_properties(${folder} PROPERTIES LABELS "unit;sanitized")
+    add_dependencies(sanitized_tests ${folder}_tests)
+  endif()
 endfunction()

@@ -98,7 +98,7 @@ TEST(Layering, ThirdPartiesLiveInTheirRooms) {
     for (const Line& line : lines_of(room)) {
       const std::string name = included(line.text, '<');
       for (const auto& [prefix, rooms] : kThirdParties)
-        if (name.rfind(prefix, 0) == 0) EXPECT_TRUE(rooms.count(room)) << line.where() << " includes <" << name << ">";
+        EXPECT_TRUE(name.rfind(prefix, 0) != 0 || rooms.count(room)) << line.where() << " includes <" << name << ">";
     }
 }
 
@@ -113,7 +113,7 @@ TEST(Layering, PublicHeadersShowOnlyEigenAndTheStandardLibrary) {
       const std::string& opening = openings[line.file];
       if (opening.find("rivate to") != std::string::npos) continue;
       const std::string name = included(line.text, '<');
-      if (name.find('/') != std::string::npos) EXPECT_EQ(name.substr(0, 6), "Eigen/") << line.where();
+      EXPECT_TRUE(name.find('/') == std::string::npos || name.rfind("Eigen/", 0) == 0) << line.where();
     }
   }
 }
@@ -122,8 +122,8 @@ TEST(House, BannedSourcesOfChance) {
   const std::regex banned(R"(#include <random>|\bstd::rand\b|\bsrand\(|std::random_device|std::shuffle|unordered_(map|set)<)");
   for (const auto& [room, unused] : kMayInclude)
     for (const Line& line : lines_of(room))
-      if (line.text.find("//") == std::string::npos)
-        EXPECT_FALSE(std::regex_search(line.text, banned)) << line.where() << ": " << line.text;
+      EXPECT_FALSE(line.text.find("//") == std::string::npos && std::regex_search(line.text, banned))
+          << line.where() << ": " << line.text;
 }
 
 TEST(House, FilesStayReadable) {
