@@ -13,19 +13,19 @@
 namespace binpick {
 
 struct DropConfig {
-  double height = 0.30;        ///< m, release height of the part's lowest possible point above the highest part or floor
-  double interval = 0.10;      ///< s between parts
-  double area = 0.8;           ///< share of the bin's length and width in which parts are released
-  double speed = 0.0;          ///< m/s, largest random initial speed
-  double spin = 2.0;           ///< rad/s, largest random initial spin
+  double height = 0.30;    ///< m, release height of the part's lowest possible point above the highest part or floor
+  double interval = 0.10;  ///< s between parts
+  double area = 0.8;       ///< share of the bin's length and width in which parts are released
+  double speed = 0.0;      ///< m/s, largest random initial speed
+  double spin = 2.0;       ///< rad/s, largest random initial spin
   void visit(ConfigVisitor& v);
   void validate() const;
 };
 
 struct SettleConfig {
-  double time_limit = 12.0;    ///< s simulated after the last part
-  double motion = 1e-4;        ///< m (and m of R x rotation): largest displacement in two windows at rest
-  double window = 0.25;        ///< s
+  double time_limit = 12.0;       ///< s simulated after the last part
+  double motion = 1e-4;           ///< m (and m of R x rotation): largest displacement in two windows at rest
+  double window = 0.25;           ///< s
   double max_penetration = 1e-3;  ///< m: a deeper contact at rest rejects the heap
   void visit(ConfigVisitor& v);
   void validate() const;
@@ -35,10 +35,10 @@ struct DropResult {
   std::vector<BodyId> bodies;      ///< in order of release; index = heap index
   std::vector<std::size_t> parts;  ///< which part each is
   bool settled = false;
-  double settle_time = 0;          ///< s after the last release
+  double settle_time = 0;            ///< s after the last release
   std::vector<std::size_t> escaped;  ///< heap indices whose mass centre is outside the bin at rest
-  double worst_penetration = 0;    ///< m
-  bool damped = false;             ///< late damping acted
+  double worst_penetration = 0;      ///< m
+  bool damped = false;               ///< late damping acted
 };
 
 struct DropItem {

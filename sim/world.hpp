@@ -1,5 +1,6 @@
-// The physics world: free, fixed and moved bodies, a step that follows the state by a stated rule, poses, rays, state hash.
-// SI outside; scale, margin and P <-> M stay inside (bullet_convert.hpp). A fresh World for every trial; never reset one.
+// The physics world: free, fixed and moved bodies, a step that follows the state by a stated rule, poses, rays, state
+// hash. SI outside; scale, margin and P <-> M stay inside (bullet_convert.hpp). A fresh World for every trial; never
+// reset one.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,10 @@ namespace binpick {
 
 /// Settings of reference bullet_settings.md, each with its reason in world.cpp.
 struct PhysicsConfig {
-  double gravity = 9.81;             ///< m/s^2
-  double fine_step = 1.0 / 1000;     ///< s, while any awake part is fast
-  double coarse_step = 1.0 / 240;    ///< s
-  double fast_speed = 0.3;           ///< m/s: |v| + |w| R above which a part is fast
+  double gravity = 9.81;           ///< m/s^2
+  double fine_step = 1.0 / 1000;   ///< s, while any awake part is fast
+  double coarse_step = 1.0 / 240;  ///< s
+  double fast_speed = 0.3;         ///< m/s: |v| + |w| R above which a part is fast
   int iterations = 50;
   double margin = 0.2e-3;            ///< m, collision margin, planes inset by it
   double contact_threshold = 2e-3;   ///< m
@@ -51,17 +52,31 @@ class World {
   /// Where a moved body shall be at the end of the next step.
   void move_to(BodyId body, const Pose& X_WO);
   void set_collides(BodyId a, BodyId b, bool collides);
+  /// Takes a body out of the simulation (it keeps its id and pose) or puts it back.
+  void set_present(BodyId body, bool present);
+  /// Puts a body elsewhere at once, at rest.
+  void teleport(BodyId body, const Pose& X_WO);
+  void set_velocity(BodyId body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular);
+  /// Damping of all free bodies, share of the speed lost in one second.
+  void set_damping(double linear, double angular);
+  /// Velocity zero and asleep: frozen until something touches or wakes it.
+  void put_to_sleep(BodyId body);
 
   double step();           ///< one step; returns its length in s
   double step(double dt);  ///< one step of a stated length (motion in lockstep with the arm)
   double time() const;
   int body_count() const;
-  Pose pose(BodyId body) const;            ///< X_WO or X_WP
+  enum class BodyKind { kFree, kFixed, kMoved };
+  BodyKind kind(BodyId body) const;
+  bool present(BodyId body) const;
+  Eigen::Vector3d mass_center(BodyId body) const;       ///< in W
+  double bounding_radius(BodyId body) const;            ///< m, about the mass centre
+  Pose pose(BodyId body) const;                         ///< X_WO or X_WP
   Eigen::Vector3d velocity(BodyId body) const;          ///< m/s, of the mass centre
   Eigen::Vector3d angular_velocity(BodyId body) const;  ///< rad/s, in W
   void wake(BodyId body);
   bool awake(BodyId body) const;
-  double deepest_contact() const;          ///< m, deepest penetration among current contacts, >= 0
+  double deepest_contact() const;  ///< m, deepest penetration among current contacts, >= 0
   /// Contacts of a body now: the other body, normal force (N, mean over the last step) and depth (m).
   struct BodyContact {
     BodyId other;
@@ -69,9 +84,11 @@ class World {
     double depth;
   };
   std::vector<BodyContact> contacts(BodyId body) const;
-  std::uint64_t state_hash() const;        ///< of every body's pose and velocity bits
+  /// How deep two bodies overlap where the step itself makes no contacts (moved against fixed), m, >= 0.
+  double overlap(BodyId a, BodyId b);
+  std::uint64_t state_hash() const;  ///< of every body's pose and velocity bits
 
-  struct Impl;             ///< shared with hold.cpp and settle.cpp through sim/world_impl.hpp, private to sim
+  struct Impl;  ///< shared with hold.cpp through sim/world_impl.hpp, private to sim
   Impl& impl() { return *impl_; }
   const Impl& impl() const { return *impl_; }
 
