@@ -1,6 +1,8 @@
 // binpick: one program, one file per subcommand. Standard output carries the result, standard error the talk.
 // Exit codes: 0 done, 2 bad usage or input, 5 crash, 6 storage, 130 interrupted.
 
+#include <signal.h>
+
 #include <iostream>
 #include <new>
 #include <vector>
@@ -36,6 +38,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   binpick::pin_environment(argv);
+  ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit shows as a failed write, like a full disk
   try {
     return run(argc, argv);
   } catch (const binpick::SpecError& error) {
