@@ -1,0 +1,81 @@
+#include "perception/floor_offset.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace binpick {
+namespace {
+
+constexpr int kBins = 121;             // over +- the largest offset
+constexpr std::size_t kFewestPixels = 300;
+constexpr double kFewestShare = 0.02;  // of the bin's pixels
+constexpr double kModeShare = 0.4;     // of the highest mode: a deeper mode this high is the floor
+constexpr double kMargin = 0.01;       // m off the walls, where they mix into the floor
+
+std::vector<float> inverse_depth_differences(const Scene& scene, std::size_t& looked_at) {
+  std::vector<float> out;
+  looked_at = 0;
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u) {
+      const float floor = floor_depth(scene, u, v, kMargin);
+      if (!(floor > 0)) continue;
+      ++looked_at;
+      if (scene.depth(u, v) > 0) out.push_back(1 / scene.depth(u, v) - 1 / floor);
+    }
+  return out;
+}
+
+/// The centre of the deepest (smallest) bin that is a clear local mode.
+int deepest_mode(const std::vector<double>& histogram) {
+  const double most = *std::max_element(histogram.begin(), histogram.end());
+  for (int b = 0; b < kBins; ++b) {
+    const double left = b > 0 ? histogram[b - 1] : 0, right = b + 1 < kBins ? histogram[b + 1] : 0;
+    if (histogram[b] >= kModeShare * most && histogram[b] >= left && histogram[b] >= right) return b;
+  }
+  return kBins / 2;
+}
+
+}  // namespace
+
+float floor_depth(const Scene& scene, int u, int v, double margin) {
+  const Eigen::Vector3d ray_C = scene.camera.ray(u, v), normal_C = scene.X_CB.linear().col(2);
+  const double along = normal_C.dot(ray_C);
+  if (std::abs(along) < 1e-6) return std::numeric_limits<float>::quiet_NaN();
+  const double z = normal_C.dot(scene.X_CB.translation()) / along;
+  const Eigen::Vector3d p_B = scene.X_CB.inverse() * (z * ray_C);
+  const Eigen::Vector3d half = scene.bin->inner_size / 2;
+  if (!(z > 0) || std::abs(p_B.x()) > half.x() - margin || std::abs(p_B.y()) > half.y() - margin)
+    return std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(z);
+}
+
+double floor_offset(const Scene& scene, double largest) {
+  std::size_t looked_at = 0;
+  const std::vector<float> differences = inverse_depth_differences(scene, looked_at);
+  const double z = scene.X_CB.translation().z(), range = largest / (z * z), width = 2 * range / kBins;
+  const double sigma = std::max(scene.noise.sigma(z) / (z * z), width);
+  std::vector<double> counts(kBins, 0.0), smooth(kBins, 0.0);
+  std::size_t inside = 0;
+  for (const float d : differences)
+    if (std::abs(d) < range) {
+      counts[std::min(kBins - 1, static_cast<int>((d + range) / width))] += 1;
+      ++inside;
+    }
+  if (inside < kFewestPixels || static_cast<double>(inside) < kFewestShare * static_cast<double>(looked_at)) return 0;
+  const int half = std::max(1, static_cast<int>(sigma / width));
+  for (int b = 0; b < kBins; ++b)
+    for (int k = std::max(0, b - half); k <= std::min(kBins - 1, b + half); ++k)
+      smooth[b] += counts[k] * (half + 1 - std::abs(k - b));
+  double offset = (deepest_mode(smooth) + 0.5) * width - range;
+  for (int round = 0; round < 8; ++round) {
+    double sum = 0;
+    std::size_t n = 0;
+    for (const float d : differences)
+      if (std::abs(d - offset) < 2 * sigma) sum += d, ++n;
+    if (n < kFewestPixels) return 0;
+    offset = sum / static_cast<double>(n);
+  }
+  return std::abs(offset) < range ? offset : 0;
+}
+
+}  // namespace binpick

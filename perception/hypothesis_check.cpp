@@ -1,0 +1,132 @@
+#include "perception/hypothesis_check.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kMostVoxels = 400;  // along one edge: bounds the memory when stray points lie far away
+
+/// The view from which the camera sees the part at a pose.
+int view_at(const SurfaceModel& model, const Eigen::Isometry3f& X_CP) {
+  const Eigen::Vector3f eye_P = X_CP.inverse() * Eigen::Vector3f::Zero();
+  return model.view_of((eye_P - model.center()).normalized());
+}
+
+}  // namespace
+
+float depth_tolerance(const Scene& scene, float z, const CheckConfig& config) {
+  return std::max(static_cast<float>(config.tolerance), static_cast<float>(config.tolerance_sigmas) * scene.sigma(z));
+}
+
+void CheckConfig::visit(ConfigVisitor& v) {
+  v.field("voxel", voxel, Unit::kNone, "edge of the verification grid, of the diameter (paper 4.2)");
+  v.field("least_voxel_share", least_voxel_share, Unit::kNone, "least share of visible model points in occupied voxels");
+  v.field("tolerance", tolerance, Unit::kLength, "depth agreement of an inlier, at least");
+  v.field("tolerance_sigmas", tolerance_sigmas, Unit::kNone, "the same in standard deviations of the sensor");
+  v.field("normal_tolerance", normal_tolerance, Unit::kAngle, "normal agreement of an inlier");
+  v.field("wall_tolerance", wall_tolerance, Unit::kLength, "how far a pose may reach into floor or wall, beside 2 sigma");
+  v.field("points", points, "model points tried on a hypothesis");
+}
+
+void CheckConfig::validate() const {
+  if (!(voxel >= 0.01 && voxel <= 0.2)) throw SpecError("check.voxel: must lie between 0.01 and 0.2");
+  if (!(least_voxel_share >= 0 && least_voxel_share <= 1)) throw SpecError("check.least_voxel_share: must lie between 0 and 1");
+  if (!(tolerance > 0 && tolerance < 0.1)) throw SpecError("check.tolerance: must lie between 0 and 100 mm");
+  if (!(tolerance_sigmas >= 0 && tolerance_sigmas <= 20)) throw SpecError("check.tolerance_sigmas: must lie between 0 and 20");
+  if (!(normal_tolerance > 0 && normal_tolerance <= 3.2)) throw SpecError("check.normal_tolerance: must lie between 0 and pi");
+  if (!(wall_tolerance >= 0 && wall_tolerance < 0.1)) throw SpecError("check.wall_tolerance: must lie between 0 and 100 mm");
+  if (points < 20) throw SpecError("check.points: must be at least 20");
+}
+
+VoxelSet::VoxelSet(const Scene& scene, double voxel) {
+  std::vector<Eigen::Vector3f> points;
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u)
+      if (scene.wanted(u, v)) points.push_back(scene.point(u, v, scene.depth(u, v)));
+  if (points.empty()) {
+    filled_.assign(1, 0);
+    return;
+  }
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : points) box.extend(p);
+  const float edge = std::max(static_cast<float>(voxel), box.sizes().maxCoeff() / kMostVoxels);
+  inverse_ = 1 / edge;
+  low_ = box.min().array() - 1.5f * edge;
+  size_ = (box.sizes().array() * inverse_).cast<int>() + 4;
+  filled_.assign(static_cast<std::size_t>(size_.prod()), 0);
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Array3i c = ((p - low_).array() * inverse_).cast<int>();
+    const auto at = [&](int x, int y, int z) -> std::uint8_t& {
+      return filled_[(static_cast<std::size_t>(z) * size_.y() + y) * size_.x() + x];
+    };
+    at(c.x(), c.y(), c.z()) = 1;
+    at(c.x() - 1, c.y(), c.z()) = at(c.x() + 1, c.y(), c.z()) = 1;
+    at(c.x(), c.y() - 1, c.z()) = at(c.x(), c.y() + 1, c.z()) = 1;
+    at(c.x(), c.y(), c.z() - 1) = at(c.x(), c.y(), c.z() + 1) = 1;
+  }
+}
+
+double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose& X_CP, int points) {
+  const Eigen::Isometry3f X = X_CP.cast<float>();
+  const auto& seen = model.seen_from(view_at(model, X));
+  const std::size_t count = std::min(seen.size(), static_cast<std::size_t>(points));
+  if (count == 0) return 0;
+  int inside = 0;
+  for (std::size_t k = 0; k < count; ++k) inside += voxels.contains(X * model.points()[seen[k]]);
+  return static_cast<double>(inside) / static_cast<double>(count);
+}
+
+CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
+  const Eigen::Isometry3f X = X_CP.cast<float>();
+  const auto& seen = model.seen_from(view_at(model, X));
+  const std::size_t count = std::min(seen.size(), static_cast<std::size_t>(config.points));
+  const auto least = static_cast<float>(std::cos(config.normal_tolerance));
+  CheckCounts out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector3f p = X * model.points()[seen[k]], n = X.linear() * model.normals()[seen[k]];
+    if (!(p.z() > 0) || n.dot(p) > 0) continue;
+    ++out.tried;
+    const int u = static_cast<int>(std::lround(p.x() / p.z() * scene.camera.fx + scene.camera.cx));
+    const int v = static_cast<int>(std::lround(p.y() / p.z() * scene.camera.fy + scene.camera.cy));
+    if (!scene.depth.contains(u, v) || std::isnan(scene.depth(u, v))) {
+      ++out.unknown;
+      continue;
+    }
+    // On a slanted surface a small step sideways is a large one in depth.
+    const float slant = std::max(0.35f, -n.dot(p) / p.norm());
+    const float tolerance = depth_tolerance(scene, p.z(), config) / slant;
+    const float behind = scene.depth(u, v) - p.z();
+    if (behind > tolerance) {
+      ++out.through;
+    } else if (behind < -tolerance) {
+      ++out.occluded;
+    } else if (!scene.wanted(u, v)) {
+      ++out.unknown;
+    } else if (const Eigen::Vector3f& s = scene.normals(u, v); s.isZero() || s.dot(n) >= least) {
+      ++out.inliers;
+    } else {
+      ++out.off;
+    }
+  }
+  return out;
+}
+
+bool inside_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
+  if (!scene.bin) return true;
+  const Eigen::Isometry3f X_BP = (scene.X_CB.inverse() * X_CP).cast<float>();
+  const float slack = static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));
+  const Eigen::Vector3f half = (scene.bin->inner_size / 2).cast<float>();
+  const std::size_t step = std::max<std::size_t>(1, model.points().size() / 300);
+  for (std::size_t i = 0; i < model.points().size(); i += step) {
+    const Eigen::Vector3f p = X_BP * model.points()[i];
+    if (p.z() < -slack) return false;
+    const bool beside_wall = p.z() < static_cast<float>(scene.bin->inner_size.z());
+    if (beside_wall && (std::abs(p.x()) > half.x() + slack || std::abs(p.y()) > half.y() + slack)) return false;
+  }
+  return true;
+}
+
+}  // namespace binpick

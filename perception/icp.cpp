@@ -1,0 +1,189 @@
+#include "perception/icp.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "perception/outline_term.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr float kNormalAgreement = 0.5f;  // cosine, 60 degrees
+constexpr double kRobust = 1.5;           // of the scale, Cauchy's constant
+constexpr double kLeastScale = 0.0005;    // m
+constexpr double kPriorLength = 0.02;     // m, damping: directions nothing is known about stay where they are
+constexpr double kPriorAngle = 0.3;       // rad
+
+/// Weighted normal equations of twists in P: residual = a . twist.
+struct Equations {
+  Matrix6d A = Matrix6d::Zero();
+  Vector6d b = Vector6d::Zero();
+  int points = 0;
+  double sum_abs = 0, sum_squares = 0;
+
+  void add(const Eigen::Vector3f& p_P, const Eigen::Vector3f& direction_P, double residual, double weight) {
+    Vector6d a;
+    a << direction_P.cast<double>(), p_P.cross(direction_P).cast<double>();
+    A.selfadjointView<Eigen::Lower>().rankUpdate(a, weight);
+    b += weight * residual * a;
+  }
+  Matrix6d information() const {
+    Matrix6d full = A.selfadjointView<Eigen::Lower>();
+    full.diagonal().head<3>().array() += 1 / (kPriorLength * kPriorLength);
+    full.diagonal().tail<3>().array() += 1 / (kPriorAngle * kPriorAngle);
+    return full;
+  }
+};
+
+/// The part of the image in which the part can lie, and how densely it is looked at.
+struct Roi {
+  int u0 = 0, v0 = 0, u1 = -1, v1 = -1, step = 1;
+};
+
+Roi roi_of(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config) {
+  const Eigen::Vector3d center = X_CP * model.center().cast<double>();
+  const double reach = model.radius() * 1.1;
+  if (!(center.z() > reach)) return {};
+  const double near = center.z() - reach;
+  const Eigen::Vector2d c = scene.camera.project(center);
+  const double du = scene.camera.fx * reach / near, dv = scene.camera.fy * reach / near;
+  Roi roi;
+  roi.u0 = std::max(0, static_cast<int>(std::max(c.x() - du, 0.0)));
+  roi.v0 = std::max(0, static_cast<int>(std::max(c.y() - dv, 0.0)));
+  roi.u1 = static_cast<int>(std::min(c.x() + du, scene.depth.width() - 1.0));
+  roi.v1 = static_cast<int>(std::min(c.y() + dv, scene.depth.height() - 1.0));
+  // Seldom more than half of the box about the sphere is the part.
+  const double area = std::max(0, roi.u1 - roi.u0) * std::max(0.0, static_cast<double>(roi.v1 - roi.v0)) / 2;
+  roi.step = std::max(1, static_cast<int>(std::sqrt(area / config.points)));
+  return roi;
+}
+
+struct Weighting {
+  float gate = 0;      // m
+  double scale = 0;    // m, of one residual
+};
+
+void add_surface(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const Roi& roi, const Weighting& w,
+                 Equations& out) {
+  const Eigen::Isometry3f X_PC = X_CP.inverse().cast<float>();
+  const Eigen::Vector3f eye_P = X_PC.translation();
+  const int view = model.view_of((eye_P - model.center()).normalized());
+  const float gate = w.gate * w.gate, sideways = 4 * model.spacing() * model.spacing() + 0.25f * gate;
+  for (int v = roi.v0; v <= roi.v1; v += roi.step)
+    for (int u = roi.u0; u <= roi.u1; u += roi.step) {
+      if (!scene.wanted(u, v)) continue;
+      const Eigen::Vector3f p = X_PC * scene.point(u, v, scene.depth(u, v));
+      const int k = model.nearest(p);
+      if (k < 0 || !model.visible(static_cast<std::size_t>(k), view)) continue;
+      const Eigen::Vector3f& q = model.points()[k];
+      const Eigen::Vector3f& n = model.normals()[k];
+      if (n.dot(eye_P - q) <= 0) continue;
+      const float r = n.dot(p - q), squared = (p - q).squaredNorm();
+      if (r * r > gate || squared - r * r > sideways) continue;
+      const Eigen::Vector3f& s = scene.normals(u, v);
+      if (!s.isZero() && n.dot(X_PC.linear() * s) < kNormalAgreement) continue;
+      const double x = r / (kRobust * w.scale);
+      out.add(p, n, r, 1 / (w.scale * w.scale * (1 + x * x)));  // Cauchy
+      ++out.points;
+      out.sum_abs += std::abs(r);
+      out.sum_squares += static_cast<double>(r) * r;
+    }
+}
+
+void add_outline(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config,
+                 Equations& out) {
+  const PartView view = draw_part(scene.camera, model, X_CP);
+  if (view.pixels == 0) return;
+  const auto z = static_cast<float>((X_CP * model.center().cast<double>()).z());
+  const float tolerance = std::max(0.004f, 3 * scene.sigma(z));
+  const Eigen::Isometry3f X_PC = X_CP.inverse().cast<float>();
+  const double scale = config.outline_sigma * scene.pixel(z);
+  for (const OutlineOffset& o : outline_offsets(scene, view, static_cast<int>(config.outline_search), tolerance)) {
+    const double x = o.offset / (kRobust * scale);
+    out.add(X_PC * o.point_C, X_PC.linear() * o.outward_C, o.offset, 1 / (scale * scale * (1 + x * x)));
+  }
+}
+
+/// Information that leaves directions nothing speaks about wide open, turned into a covariance.
+Matrix6d covariance_of(const Equations& equations, double correlated) {
+  Matrix6d information = equations.A.selfadjointView<Eigen::Lower>();
+  information /= correlated;
+  information.diagonal().head<3>().array() += 1.0;                                        // 1 m
+  information.diagonal().tail<3>().array() += 1 / (std::numbers::pi * std::numbers::pi);  // half a turn
+  const Matrix6d covariance = information.ldlt().solve(Matrix6d::Identity());
+  return (covariance + covariance.transpose()) / 2;
+}
+
+}  // namespace
+
+void IcpConfig::visit(ConfigVisitor& v) {
+  v.field("coarse_iterations", coarse_iterations, "iterations on the surface alone, gate shrinking");
+  v.field("fine_iterations", fine_iterations, "iterations with the narrow gate and the silhouette");
+  v.field("gate", gate, Unit::kNone, "first reach of the closest points, of the diameter");
+  v.field("least_gate", least_gate, Unit::kLength, "last reach, beside three standard deviations of the sensor");
+  v.field("accept", accept, Unit::kLength, "accepted mean deviation from the surface (paper 4.2: 1 mm)");
+  v.field("accept_sigmas", accept_sigmas, Unit::kNone, "plus so many standard deviations of the sensor; 0: the paper's");
+  v.field("points", points, "scene points used for one part, about");
+  v.field("silhouette", silhouette, "align the outline with the depth steps of the scene");
+  v.field("outline_search", outline_search, Unit::kNone, "pixels searched to either side of the outline");
+  v.field("outline_sigma", outline_sigma, Unit::kNone, "standard deviation of one outline pixel, in pixels");
+  v.field("correlated_px", correlated_px, Unit::kNone, "pixels that share one noise value, for the covariance");
+}
+
+void IcpConfig::validate() const {
+  if (coarse_iterations < 0 || fine_iterations < 0 || coarse_iterations > 200 || fine_iterations > 200)
+    throw SpecError("icp.coarse_iterations, fine_iterations: must lie between 0 and 200");
+  if (!(gate > 0 && gate <= 0.5)) throw SpecError("icp.gate: must lie between 0 and 0.5");
+  if (!(least_gate > 0 && least_gate < 0.1)) throw SpecError("icp.least_gate: must lie between 0 and 100 mm");
+  if (!(accept > 0 && accept < 0.1)) throw SpecError("icp.accept: must lie between 0 and 100 mm");
+  if (!(accept_sigmas >= 0 && accept_sigmas <= 20)) throw SpecError("icp.accept_sigmas: must lie between 0 and 20");
+  if (points < 50) throw SpecError("icp.points: must be at least 50");
+  if (!(outline_search >= 1 && outline_search <= 15)) throw SpecError("icp.outline_search: must lie between 1 and 15");
+  if (!(outline_sigma > 0 && outline_sigma <= 20)) throw SpecError("icp.outline_sigma: must lie between 0 and 20");
+  if (!(correlated_px >= 1 && correlated_px <= 1e4)) throw SpecError("icp.correlated_px: must lie between 1 and 1e4");
+}
+
+double accepted_deviation(const Scene& scene, double z, const IcpConfig& config) {
+  return config.accept + config.accept_sigmas * scene.noise.sigma(z);
+}
+
+IcpResult refine_pose(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config,
+                      IcpStage stage) {
+  IcpResult result;
+  result.X_CP = X_CP;
+  const bool fine = stage == IcpStage::kFine;
+  const int iterations = fine ? config.fine_iterations : config.coarse_iterations;
+  const float sigma = scene.sigma(static_cast<float>(X_CP.translation().z()));
+  const float last = std::max(static_cast<float>(config.least_gate), 3 * sigma);
+  float gate = fine ? last : std::max(last, static_cast<float>(config.gate) * 2 * model.radius());
+  IcpConfig sampling = config;
+  if (!fine) sampling.points /= 2;
+  Equations equations;
+  double correlated = 1;
+  for (int i = 0; i <= iterations; ++i) {
+    const Roi roi = roi_of(scene, model, result.X_CP, sampling);
+    const Weighting weighting{gate, std::max({kLeastScale, static_cast<double>(sigma), gate / 6.0})};
+    equations = Equations();
+    add_surface(scene, model, result.X_CP, roi, weighting, equations);
+    correlated = std::max(1.0, config.correlated_px / (roi.step * roi.step));
+    if (equations.points < 6) break;
+    if (fine && config.silhouette) add_outline(scene, model, result.X_CP, config, equations);
+    if (i == iterations) break;  // the last round only measures
+    const Vector6d twist = equations.information().ldlt().solve(equations.b);
+    result.X_CP = orthonormalised(result.X_CP * exp_se3(twist));
+    const bool still = twist.head<3>().norm() < 2e-5 && twist.tail<3>().norm() < 2e-4;
+    if (still && gate <= last) i = std::max(i, iterations - 1);
+    gate = std::max(last, gate * 0.75f);
+  }
+  result.points = equations.points;
+  if (equations.points > 0) {
+    result.mean_deviation = equations.sum_abs / equations.points;
+    result.rms = std::sqrt(equations.sum_squares / equations.points);
+  }
+  result.covariance = covariance_of(equations, correlated);
+  return result;
+}
+
+}  // namespace binpick

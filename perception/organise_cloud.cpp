@@ -1,0 +1,72 @@
+#include "perception/organise_cloud.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace binpick {
+namespace {
+
+constexpr double kCoarser = 1.15;     // pixel / spacing of the points: few holes, few collisions
+constexpr double kWidestSlope = 2.5;  // x/z beyond which points are left out (68 degrees)
+constexpr int kLargestImage = 2048;
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+PointCloud in_front(const PointCloud& cloud_C) {
+  PointCloud out;
+  for (std::size_t i = 0; i < cloud_C.size(); ++i) {
+    const Eigen::Vector3d& p = cloud_C.points[i];
+    if (!p.allFinite() || !(p.z() > 1e-3) || p.head<2>().cwiseAbs().maxCoeff() > kWidestSlope * p.z()) continue;
+    out.points.push_back(p);
+    if (cloud_C.has_normals()) out.normals.push_back(cloud_C.normals[i]);
+  }
+  return out;
+}
+
+PinholeCamera camera_for(const PointCloud& cloud_C) {
+  Eigen::Array2d low = Eigen::Array2d::Constant(1e9), high = -low;
+  std::vector<double> depths;
+  for (const Eigen::Vector3d& p : cloud_C.points) {
+    const Eigen::Array2d slope = p.head<2>().array() / p.z();
+    low = low.min(slope);
+    high = high.max(slope);
+    depths.push_back(p.z());
+  }
+  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
+  const double spacing = std::max(median_spacing(cloud_C), 1e-5);
+  const double widest = std::max((high - low).maxCoeff(), 1e-3);
+  const double f = std::min(depths[depths.size() / 2] / (kCoarser * spacing), (kLargestImage - 2) / widest);
+  PinholeCamera camera;
+  camera.fx = camera.fy = f;
+  camera.cx = 1 - low.x() * f;
+  camera.cy = 1 - low.y() * f;
+  camera.width = static_cast<int>((high.x() - low.x()) * f) + 3;
+  camera.height = static_cast<int>((high.y() - low.y()) * f) + 3;
+  return camera;
+}
+
+}  // namespace
+
+void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scene& scene) {
+  PointCloud cloud = in_front(cloud_C);
+  if (cloud.points.empty()) {
+    scene.depth = Image<float>(16, 16, kUnknown);
+    scene.normals = Image<Eigen::Vector3f>(16, 16, Eigen::Vector3f::Zero());
+    return;
+  }
+  if (!cloud.has_normals()) cloud.normals = cloud_normals(cloud, config.radius);
+  scene.camera = camera_for(cloud);
+  scene.depth = Image<float>(scene.camera.width, scene.camera.height, kUnknown);
+  scene.normals = Image<Eigen::Vector3f>(scene.camera.width, scene.camera.height, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector2d pixel = scene.camera.project(cloud.points[i]);
+    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+    const float z = static_cast<float>(cloud.points[i].z());
+    if (!scene.depth.contains(u, v) || scene.depth(u, v) <= z) continue;
+    scene.depth(u, v) = z;
+    Eigen::Vector3f n = cloud.normals[i].cast<float>();
+    if (n.dot(cloud.points[i].cast<float>()) > 0) n = -n;
+    scene.normals(u, v) = n;
+  }
+}
+
+}  // namespace binpick

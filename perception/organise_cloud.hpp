@@ -1,0 +1,13 @@
+// An unordered cloud as the image of a made-up pinhole camera at the origin of C: about one point a pixel, the nearest
+// point wins. Where the cloud has no normals they come from PCL.
+#pragma once
+
+#include "perception/normals.hpp"
+#include "perception/scene.hpp"
+
+namespace binpick {
+
+/// Fills camera, depth and normals of `scene`; points behind the camera are left out.
+void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scene& scene);
+
+}  // namespace binpick

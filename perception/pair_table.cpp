@@ -1,0 +1,79 @@
+#include "perception/pair_table.hpp"
+
+#include "core/check.hpp"
+#include "core/error.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kTurns = 120;           // samples of a continuous axis: 3 degrees
+constexpr float kSameNormal = 0.92f;  // cosine, 23 degrees
+
+std::vector<OrientedPoint> oriented(const PointCloud& cloud) {
+  std::vector<OrientedPoint> out(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    out[i] = {cloud.points[i].cast<float>(), cloud.normals[i].cast<float>()};
+  return out;
+}
+
+/// Indices of points of which no two are carried into each other by the group.
+std::vector<std::size_t> reduced(const std::vector<OrientedPoint>& points, const Symmetry& symmetry, double same) {
+  std::vector<std::size_t> kept;
+  if (symmetry.trivial()) {
+    for (std::size_t i = 0; i < points.size(); ++i) kept.push_back(i);
+    return kept;
+  }
+  std::vector<Eigen::Isometry3f> group;
+  for (const Pose& S : sampled_group(symmetry, kTurns)) group.push_back(S.cast<float>());
+  const float limit = static_cast<float>(same * same);
+  const auto known = [&](const OrientedPoint& p) {
+    for (const Eigen::Isometry3f& S : group) {
+      const Eigen::Vector3f point = S * p.point, normal = S.linear() * p.normal;
+      for (const std::size_t k : kept)
+        if ((points[k].point - point).squaredNorm() < limit && points[k].normal.dot(normal) > kSameNormal) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!known(points[i])) kept.push_back(i);
+  return kept;
+}
+
+struct PlacedEntry {
+  std::int32_t cell;
+  PairEntry entry;
+};
+
+}  // namespace
+
+PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same)
+    : quantiser_(quantiser) {
+  BP_CHECK(model_P.has_normals());
+  const std::vector<OrientedPoint> points = oriented(model_P);
+  const std::vector<std::size_t> kept = reduced(points, symmetry, same);
+  if (kept.size() > 65535)
+    throw SpecError("paper_ppf: the model has " + std::to_string(kept.size()) +
+                    " points; at most 65535 fit. Enlarge preprocess.voxel.");
+  std::vector<PlacedEntry> placed;
+  placed.reserve(kept.size() * points.size());
+  first_.assign(static_cast<std::size_t>(quantiser.cells()) + 1, 0);
+  for (std::size_t r = 0; r < kept.size(); ++r) {
+    const OrientedPoint& a = points[kept[r]];
+    references_.push_back(a);
+    const Eigen::Matrix3f R = frame_with_x(a.normal);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (j == kept[r]) continue;
+      const int cell = quantiser.cell(pair_feature(a, points[j]));
+      if (cell < 0) continue;
+      const std::uint16_t alpha = alpha_turns(R, points[j].point - a.point);
+      placed.push_back({cell, {static_cast<std::uint16_t>(r), alpha}});
+      ++first_[static_cast<std::size_t>(cell) + 1];
+    }
+  }
+  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  entries_.resize(placed.size());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (const PlacedEntry& p : placed) entries_[next[static_cast<std::size_t>(p.cell)]++] = p.entry;
+}
+
+}  // namespace binpick

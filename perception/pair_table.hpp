@@ -1,0 +1,43 @@
+// The model's pairs, found by the cell of their feature (paper 4): a direct-index table with the entries of a cell side
+// by side. One entry is 32 bits: reference (16 bit) and the pair's angle alpha about the reference's normal (16 bit of
+// a turn). References are reduced by the part's symmetry: of all points that the symmetry carries into each other only
+// one stays, so that a ring votes for one pose, not for a whole orbit of equal ones.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/point_cloud.hpp"
+#include "core/symmetry.hpp"
+#include "perception/pair_feature.hpp"
+
+namespace binpick {
+
+struct PairEntry {
+  std::uint16_t reference = 0;  ///< index into PairTable::references()
+  std::uint16_t alpha = 0;      ///< turns / 65536
+};
+
+class PairTable {
+ public:
+  PairTable() = default;
+  /// `model_P` with normals; points closer than `same` (m) after a symmetry count as the same reference.
+  PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same);
+
+  std::span<const PairEntry> entries(int cell) const {
+    return {entries_.data() + first_[cell], entries_.data() + first_[cell + 1]};
+  }
+  const PairQuantiser& quantiser() const { return quantiser_; }
+  const std::vector<OrientedPoint>& references() const { return references_; }
+  std::size_t entry_count() const { return entries_.size(); }
+  std::size_t bytes() const { return entries_.size() * sizeof(PairEntry) + first_.size() * sizeof(std::uint32_t); }
+
+ private:
+  PairQuantiser quantiser_;
+  std::vector<OrientedPoint> references_;
+  std::vector<std::uint32_t> first_ = {0};
+  std::vector<PairEntry> entries_;
+};
+
+}  // namespace binpick

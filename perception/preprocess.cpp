@@ -1,0 +1,109 @@
+#include "perception/preprocess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "perception/floor_offset.hpp"
+#include "perception/organise_cloud.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+void clear_bad_depth(Scene& scene) {
+  for (float& z : scene.depth)
+    if (!(z > 0) || !std::isfinite(z)) z = kUnknown;
+}
+
+void remove_offset(Scene& scene, double offset) {
+  scene.floor_offset = offset;
+  if (offset == 0) return;
+  for (float& z : scene.depth) {
+    const float inverse = 1 / z - static_cast<float>(offset);
+    z = inverse > 0 ? 1 / inverse : kUnknown;
+  }
+}
+
+/// Height above the floor up to which a point counts as floor.
+double floor_height(const Scene& scene, const PreprocessConfig& config, double thinnest) {
+  const double sigma = scene.noise.sigma(scene.X_CB.translation().z());
+  return std::clamp(config.floor_cut * sigma, config.floor_cut_least,
+                    std::max({config.floor_cut_least, 0.4 * thinnest, 1.3 * sigma}));
+}
+
+/// Pass-through (paper 3.1), less floor and walls.
+void mark_wanted(Scene& scene, const PreprocessConfig& config) {
+  const Pose X_BC = scene.X_CB.inverse();
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u) {
+      const float z = scene.depth(u, v);
+      scene.wanted(u, v) = 0;
+      if (!(z > 0)) continue;
+      if (!scene.bin) {
+        scene.wanted(u, v) = z > config.near && z < config.far;
+        continue;
+      }
+      const Eigen::Vector3d p_B = X_BC * scene.camera.unproject(u, v, z);
+      const Eigen::Vector3d half = scene.bin->inner_size / 2;
+      scene.wanted(u, v) = std::abs(p_B.x()) < half.x() - config.wall_margin &&
+                           std::abs(p_B.y()) < half.y() - config.wall_margin && p_B.z() > scene.floor_cut &&
+                           p_B.z() < scene.bin->inner_size.z() + config.headroom;
+    }
+}
+
+}  // namespace
+
+void PreprocessConfig::visit(ConfigVisitor& v) {
+  v.field("voxel", voxel, Unit::kNone, "edge of the voxel grid, of the part's diameter (paper 3.1)");
+  v.field("calibrate_floor", calibrate_floor, "remove the disparity offset that the visible floor shows");
+  v.field("largest_offset", largest_offset, Unit::kLength, "largest depth offset at the floor that is believed");
+  v.field("floor_cut", floor_cut, Unit::kNone, "floor removed up to this many standard deviations of the depth");
+  v.field("floor_cut_least", floor_cut_least, Unit::kLength, "floor removed at least up to this height");
+  v.field("wall_margin", wall_margin, Unit::kLength, "points nearer to a wall are removed");
+  v.field("headroom", headroom, Unit::kLength, "height above the rim that is still looked at");
+  v.field("near", near, Unit::kLength, "pass-through without a bin: least depth");
+  v.field("far", far, Unit::kLength, "pass-through without a bin: largest depth");
+}
+
+void PreprocessConfig::validate() const {
+  if (!(voxel >= 0.01 && voxel <= 0.2)) throw SpecError("preprocess.voxel: must lie between 0.01 and 0.2");
+  if (!(largest_offset > 0 && largest_offset < 0.1))
+    throw SpecError("preprocess.largest_offset: must lie between 0 and 100 mm");
+  if (!(floor_cut >= 0 && floor_cut <= 20)) throw SpecError("preprocess.floor_cut: must lie between 0 and 20");
+  if (!(floor_cut_least >= 0 && floor_cut_least < 0.1))
+    throw SpecError("preprocess.floor_cut_least: must lie between 0 and 100 mm");
+  if (!(wall_margin >= 0 && wall_margin < 0.1)) throw SpecError("preprocess.wall_margin: must lie between 0 and 100 mm");
+  if (!(headroom >= 0 && headroom < 2)) throw SpecError("preprocess.headroom: must lie between 0 and 2 m");
+  if (!(near >= 0 && far > near)) throw SpecError("preprocess.near, far: 0 <= near < far is needed");
+}
+
+Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest) {
+  Scene scene;
+  if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
+    scene.camera = frame->camera;
+    scene.depth = frame->depth;
+    scene.noise = frame->noise;
+    scene.normals = Image<Eigen::Vector3f>(frame->depth.width(), frame->depth.height(), Eigen::Vector3f::Zero());
+  } else {
+    organise_cloud(std::get<PointCloud>(view.seen), normals, scene);
+  }
+  scene.bin = view.bin;
+  scene.X_CB = view.X_CB;
+  scene.wanted = Image<std::uint8_t>(scene.depth.width(), scene.depth.height(), 0);
+  clear_bad_depth(scene);
+  if (scene.bin) {
+    if (config.calibrate_floor) remove_offset(scene, floor_offset(scene, config.largest_offset));
+    scene.floor_cut = floor_height(scene, config, thinnest);
+  }
+  mark_wanted(scene, config);
+  if (std::holds_alternative<DepthFrame>(view.seen)) {
+    estimate_normals(scene, normals);
+  } else {
+    drop_disagreeing_normals(scene, normals);
+  }
+  return scene;
+}
+
+}  // namespace binpick

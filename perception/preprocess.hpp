@@ -1,0 +1,37 @@
+// What reaches the matching (paper 3.1): pass-through crop to the bin the cell believes in, known floor and walls taken
+// away by geometry, normals, voxel grid at 0.04 of the part's diameter. Before the floor is cut, the floor itself shows
+// how far the sensor's disparity is off in this frame, and that is removed. Frame C, metres.
+#pragma once
+
+#include "core/config.hpp"
+#include "core/point_cloud.hpp"
+#include "core/pose_estimate.hpp"
+#include "perception/normals.hpp"
+#include "perception/scene.hpp"
+
+namespace binpick {
+
+struct PreprocessConfig {
+  double voxel = 0.04;             ///< of the diameter (paper 3.1)
+  bool calibrate_floor = true;     ///< remove the disparity offset seen on the visible floor
+  double largest_offset = 0.012;   ///< m at the floor, larger offsets are not believed
+  double floor_cut = 3;            ///< standard deviations of the depth above the floor
+  double floor_cut_least = 0.002;  ///< m
+  double wall_margin = 0.005;      ///< m off the walls
+  double headroom = 0.15;          ///< m above the walls' rim that is still looked at
+  double near = 0.05, far = 3.0;   ///< m, depth range where there is no bin
+
+  void visit(ConfigVisitor& v);
+  void validate() const;
+};
+
+/// The scene with its wanted pixels and normals. `thinnest` (m): smallest extent of the wanted parts, so that the floor
+/// is never cut higher than a part lying flat.
+Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest);
+
+/// One point a voxel and side: mean point and normal of the wanted pixels; what faces two ways in one voxel stays two
+/// points. Only pixels with a normal count.
+PointCloud voxel_grid(const Scene& scene, double voxel);
+PointCloud voxel_grid(const PointCloud& cloud, double voxel);  ///< the same for a cloud with normals
+
+}  // namespace binpick

@@ -1,0 +1,31 @@
+#include "core/error.hpp"
+#include "core/yaml.hpp"
+#include "perception/pose_estimator.hpp"
+
+namespace binpick {
+
+std::unique_ptr<PoseEstimator> make_paper_ppf_estimator();
+
+const std::vector<EstimatorEntry>& estimator_registry() {
+  static const std::vector<EstimatorEntry> entries = {
+      {"paper_ppf", "the paper's pipeline: point pair features of the CAD, Hough voting, verification, ICP",
+       make_paper_ppf_estimator},
+  };
+  return entries;
+}
+
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : estimator_registry()) names.push_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<PoseEstimator> make_estimator(const std::string& name) {
+  for (const EstimatorEntry& entry : estimator_registry())
+    if (entry.name == name) return entry.make();
+  const std::string nearest = nearest_name(name, estimator_names());
+  throw SpecError("estimator.type: unknown type '" + name + "'" +
+                  (nearest.empty() ? "" : ", did you mean '" + nearest + "'?"));
+}
+
+}  // namespace binpick

@@ -1,0 +1,139 @@
+#include "perception/surface_model.hpp"
+
+#include <array>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "core/mesh_properties.hpp"
+#include "core/sample_surface.hpp"
+
+namespace binpick {
+namespace {
+
+/// Even directions on the sphere (golden spiral).
+std::vector<Eigen::Vector3f> sphere_directions(int count) {
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3f> out;
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
+    out.push_back(Eigen::Vector3d(r * std::cos(golden * i), r * std::sin(golden * i), z).cast<float>());
+  }
+  return out;
+}
+
+/// Connected pieces of a mesh; vertices at equal positions are one.
+class Pieces {
+ public:
+  explicit Pieces(const TriangleMesh& mesh) : parent_(mesh.vertices.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    std::map<std::array<double, 3>, std::uint32_t> first;
+    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+      const Eigen::Vector3d& v = mesh.vertices[i];
+      join(i, first.emplace(std::array<double, 3>{v.x(), v.y(), v.z()}, i).first->second);
+    }
+    for (const auto& t : mesh.triangles) {
+      join(t[0], t[1]);
+      join(t[1], t[2]);
+    }
+  }
+  std::uint32_t of(std::uint32_t vertex) {
+    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
+    return vertex;
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+SurfaceModel::SurfaceModel(const TriangleMesh& mesh_P, double spacing, double reach)
+    : views_(sphere_directions(kViews)), seen_(kViews), spacing_(static_cast<float>(spacing)) {
+  const PointCloud cloud = sample_surface(mesh_P, spacing, Seed{0x73757266ull});
+  std::vector<std::size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Seed{0x73757267ull}.rng().shuffle(order);
+  const MeshQuery query(mesh_P);
+  const Eigen::AlignedBox3d box = bounding_box(mesh_P);
+  box_ = box.cast<float>();
+  const double far = box.diagonal().norm();
+  for (const std::size_t i : order) {
+    const Eigen::Vector3d& n = cloud.normals[i];
+    const Eigen::Vector3d origin = cloud.points[i] + 1e-3 * spacing * n;
+    ViewMask mask = 0;
+    for (int v = 0; v < kViews; ++v) {
+      const Eigen::Vector3d direction = views_[v].cast<double>().normalized();
+      if (n.dot(direction) > 0.02 && !query.ray(origin, direction, far)) mask |= ViewMask{1} << v;
+    }
+    if (mask == 0) continue;
+    points_.push_back(cloud.points[i].cast<float>());
+    normals_.push_back(n.cast<float>());
+    masks_.push_back(mask);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    radius_ = std::max(radius_, (points_[i] - center()).norm() + spacing_);
+    for (int v = 0; v < kViews; ++v)
+      if (visible(i, v)) seen_[v].push_back(static_cast<std::uint32_t>(i));
+  }
+  build_shell(mesh_P);
+  build_field(static_cast<float>(reach));
+}
+
+int SurfaceModel::view_of(const Eigen::Vector3f& direction_P) const {
+  int best = 0;
+  float closest = -std::numeric_limits<float>::infinity();
+  for (int v = 0; v < kViews; ++v) {
+    const float c = views_[v].dot(direction_P);
+    if (c > closest) {
+      closest = c;
+      best = v;
+    }
+  }
+  return best;
+}
+
+void SurfaceModel::build_shell(const TriangleMesh& mesh_P) {
+  // A connected piece of which no sample is visible (a ball in its cage) is dropped as a whole; single triangles of a
+  // visible piece stay, so that no sliver can leave a hole.
+  Pieces pieces(mesh_P);
+  const MeshQuery query(mesh_P);
+  std::vector<char> kept(mesh_P.vertices.size(), 0);
+  for (const Eigen::Vector3f& p : points_)
+    if (const auto hit = query.closest(p.cast<double>(), spacing_))
+      kept[pieces.of(mesh_P.triangles[hit->triangle][0])] = 1;
+  shell_.vertices = mesh_P.vertices;
+  for (const auto& t : mesh_P.triangles)
+    if (kept[pieces.of(t[0])]) shell_.triangles.push_back(t);
+}
+
+void SurfaceModel::build_field(float reach) {
+  const float cell = spacing_;
+  inverse_cell_ = 1 / cell;
+  low_ = box_.min().array() - reach;
+  size_ = ((box_.max() - box_.min()).array() + 2 * reach).cwiseQuotient(Eigen::Array3f::Constant(cell)).ceil().cast<int>();
+  size_.array() += 1;
+  limit_ = size_.cast<float>().array();
+  field_.assign(static_cast<std::size_t>(size_.prod()), -1);
+  std::vector<float> nearest(field_.size(), reach * reach);
+  const int steps = static_cast<int>(std::ceil(reach / cell));
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Eigen::Array3i c = ((points_[k] - low_).array() * inverse_cell_).cast<int>();
+    const Eigen::Array3i from = (c - steps).max(0), to = (c + steps).min(size_.array() - 1);
+    for (int z = from.z(); z <= to.z(); ++z)
+      for (int y = from.y(); y <= to.y(); ++y)
+        for (int x = from.x(); x <= to.x(); ++x) {
+          const Eigen::Vector3f center = low_ + cell * Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f);
+          const float d = (center - points_[k]).squaredNorm();
+          const std::size_t i = (static_cast<std::size_t>(z) * size_.y() + y) * size_.x() + x;
+          if (d < nearest[i]) {
+            nearest[i] = d;
+            field_[i] = static_cast<std::int32_t>(k);
+          }
+        }
+  }
+}
+
+}  // namespace binpick

@@ -1,0 +1,62 @@
+// The part as verification and refinement see it: a dense cloud of its outer surface with, for every point, the set of
+// directions it can be seen from, and a grid that answers "which surface point is nearest" in one look-up. Also the mesh
+// without its invisible insides, cheap to draw. Frame P, metres.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh.hpp"
+
+namespace binpick {
+
+class SurfaceModel {
+ public:
+  static constexpr int kViews = 64;  ///< directions, even on the sphere: at most 15 degrees to the nearest
+  using ViewMask = std::uint64_t;
+
+  SurfaceModel() = default;
+  /// Samples every `spacing` (m); the grid answers within `reach` (m) of the surface.
+  SurfaceModel(const TriangleMesh& mesh_P, double spacing, double reach);
+
+  const std::vector<Eigen::Vector3f>& points() const { return points_; }
+  const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
+  const TriangleMesh& shell() const { return shell_; }
+  const Eigen::AlignedBox3f& box() const { return box_; }
+  Eigen::Vector3f center() const { return box_.center(); }
+  float radius() const { return radius_; }    ///< of the sphere about center() that holds the part
+  float spacing() const { return spacing_; }
+
+  /// The view nearest to a direction (towards the eye).
+  int view_of(const Eigen::Vector3f& direction_P) const;
+  bool visible(std::size_t point, int view) const { return (masks_[point] >> view) & 1u; }
+  /// Indices of all points visible in a view; any stretch of the list is spread evenly over the surface.
+  const std::vector<std::uint32_t>& seen_from(int view) const { return seen_[view]; }
+
+  /// Index of the nearest surface point, or -1 beyond the reach.
+  int nearest(const Eigen::Vector3f& p_P) const {
+    const Eigen::Array3f c = (p_P - low_).array() * inverse_cell_;
+    if (!((c >= 0.0f).all() && (c < limit_).all())) return -1;
+    const Eigen::Array3i i = c.cast<int>();
+    return field_[(static_cast<std::size_t>(i.z()) * size_.y() + i.y()) * size_.x() + i.x()];
+  }
+
+ private:
+  void build_shell(const TriangleMesh& mesh_P);
+  void build_field(float reach);
+  std::vector<Eigen::Vector3f> points_, normals_;
+  std::vector<ViewMask> masks_;
+  std::vector<Eigen::Vector3f> views_;
+  std::vector<std::vector<std::uint32_t>> seen_;
+  TriangleMesh shell_;
+  Eigen::AlignedBox3f box_;
+  float radius_ = 0, spacing_ = 0, inverse_cell_ = 1;
+  Eigen::Vector3f low_ = Eigen::Vector3f::Zero();
+  Eigen::Array3f limit_ = Eigen::Array3f::Zero();
+  Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
+  std::vector<std::int32_t> field_;
+};
+
+}  // namespace binpick

@@ -1,0 +1,155 @@
+#include "perception/view_check.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kBeyond = 5;          // px outside the outline: past fattening and mixed pixels
+constexpr float kSteepest = 0.01f;  // m per px, slope that is carried on outside the outline
+
+/// Depth change from a pixel to its steepest neighbour inside the part.
+float slope(const PartView& view, int u, int v) {
+  float steepest = 0;
+  const auto look = [&](int a, int b) {
+    if (view.inside(a, b)) steepest = std::max(steepest, std::abs(view.at(a, b) - view.at(u, v)));
+  };
+  look(u - 1, v), look(u + 1, v), look(u, v - 1), look(u, v + 1);
+  return std::min(steepest, kSteepest);
+}
+
+bool rim(const PartView& view, int u, int v) {
+  return !(view.inside(u - 1, v) && view.inside(u + 1, v) && view.inside(u, v - 1) && view.inside(u, v + 1));
+}
+
+/// The drawn surface's normal, or zero at its rim.
+Eigen::Vector3f drawn_normal(const Scene& scene, const PartView& view, int u, int v) {
+  const Eigen::Vector3f p = scene.point(u, v, view.at(u, v));
+  const Eigen::Vector3f dx = scene.point(u + 1, v, view.at(u + 1, v)) - p, dy = scene.point(u, v + 1, view.at(u, v + 1)) - p;
+  return dy.cross(dx).normalized();  // x right, y down: towards the camera
+}
+
+void judge_pixel(const Scene& scene, const PartView& view, int u, int v, const CheckConfig& config, ViewCheck& out) {
+  const float z = view.at(u, v), seen = scene.depth(u, v);
+  if (std::isnan(seen)) {
+    ++out.unknown;
+    return;
+  }
+  const bool edge = rim(view, u, v);
+  const float tolerance = depth_tolerance(scene, z, config) + (edge ? 2.0f : 0.7f) * slope(view, u, v);
+  if (seen - z > tolerance) {
+    edge ? ++out.unknown : ++out.through;  // a rim pixel may see past the part by half a pixel
+  } else if (seen - z < -tolerance) {
+    ++out.covered;
+  } else if (!scene.wanted(u, v)) {
+    ++out.unknown;
+  } else {
+    const Eigen::Vector3f& s = scene.normals(u, v);
+    if (!edge && !s.isZero() && s.dot(drawn_normal(scene, view, u, v)) < std::cos(config.normal_tolerance)) {
+      ++out.off;
+      return;
+    }
+    ++out.inliers;
+    out.explained.push_back(static_cast<std::uint32_t>(v) * static_cast<std::uint32_t>(scene.depth.width()) +
+                            static_cast<std::uint32_t>(u));
+  }
+}
+
+/// Share of the outline just outside of which the scene carries on with the drawn surface.
+double leak_of(const Scene& scene, const PartView& view, const CheckConfig& config) {
+  int leaks = 0, ends = 0;
+  for (const OutlinePixel& o : outline_of(view)) {
+    const auto pixel = [&](int k) {
+      return Eigen::Vector2i(static_cast<int>(std::lround(static_cast<float>(o.u) + static_cast<float>(k) * o.outward.x())),
+                             static_cast<int>(std::lround(static_cast<float>(o.v) + static_cast<float>(k) * o.outward.y())));
+    };
+    const Eigen::Vector2i out = pixel(kBeyond), in = pixel(-2);
+    if (!scene.depth.contains(out.x(), out.y()) || !view.inside(in.x(), in.y()) || view.inside(out.x(), out.y())) continue;
+    const float tolerance = depth_tolerance(scene, o.z, config);
+    const float here = scene.depth(o.u, o.v);
+    if (here < o.z - 2 * tolerance) continue;  // the rim itself is covered
+    const float per_px = std::clamp((o.z - view.at(in.x(), in.y())) / 2, -kSteepest, kSteepest);
+    const float seen = scene.depth(out.x(), out.y()), expected = o.z + kBeyond * per_px;
+    if (seen < expected - tolerance) continue;
+    const bool goes_on = seen < expected + tolerance && scene.wanted(out.x(), out.y());
+    goes_on ? ++leaks : ++ends;
+  }
+  return leaks + ends >= 5 ? static_cast<double>(leaks) / (leaks + ends) : 0;
+}
+
+/// Share of the surface points of `b` that lie inside `a`, deeper than `slack`.
+double overlap(const SurfaceModel& a, const Pose& X_Ca, const SurfaceModel& b, const Pose& X_Cb, float slack) {
+  const Eigen::Isometry3f X_ab = (X_Ca.inverse() * X_Cb).cast<float>();
+  if ((X_ab * b.center() - a.center()).norm() > a.radius() + b.radius()) return 0;
+  const std::size_t step = std::max<std::size_t>(1, b.points().size() / 400);
+  int inside = 0, all = 0;
+  for (std::size_t i = 0; i < b.points().size(); i += step, ++all) {
+    const Eigen::Vector3f p = X_ab * b.points()[i];
+    const int k = a.nearest(p);
+    inside += k >= 0 && a.normals()[k].dot(p - a.points()[k]) < -slack;
+  }
+  return static_cast<double>(inside) / all;
+}
+
+}  // namespace
+
+void AcceptConfig::visit(ConfigVisitor& v) {
+  v.field("least_quality", least_quality, Unit::kNone, "least inliers / (inliers + contradictions)");
+  v.field("least_explained", least_explained, Unit::kNone, "least inliers / pixels of the whole silhouette");
+  v.field("least_pixels", least_pixels, "least number of inlier pixels");
+  v.field("largest_leak", largest_leak, Unit::kNone, "largest share of the outline at which the surface goes on");
+  v.field("least_own", least_own, Unit::kNone, "least share of the inliers that no better pose claims");
+  v.field("largest_overlap", largest_overlap, Unit::kNone, "largest share of the surface inside a better pose");
+}
+
+void AcceptConfig::validate() const {
+  const auto share = [](double x) { return x >= 0 && x <= 1; };
+  if (!share(least_quality) || !share(least_explained) || !share(largest_leak) || !share(least_own) ||
+      !share(largest_overlap))
+    throw SpecError("accept: every share must lie between 0 and 1");
+  if (least_pixels < 1) throw SpecError("accept.least_pixels: must be at least 1");
+}
+
+ViewCheck check_view(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
+  ViewCheck out;
+  const PartView view = draw_part(scene.camera, model, X_CP);
+  out.pixels = view.pixels;
+  if (view.pixels == 0) return out;
+  for (int v = view.v0; v < view.v0 + view.depth.height(); ++v)
+    for (int u = view.u0; u < view.u0 + view.depth.width(); ++u)
+      if (view.inside(u, v)) judge_pixel(scene, view, u, v, config, out);
+  out.leak = leak_of(scene, view, config);
+  return out;
+}
+
+bool accepted(const ViewCheck& check, const AcceptConfig& config) {
+  return check.quality() >= config.least_quality && check.explained_share() >= config.least_explained &&
+         check.inliers >= config.least_pixels && check.leak <= config.largest_leak;
+}
+
+std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates, const std::vector<const SurfaceModel*>& models,
+                                         const Scene& scene, const AcceptConfig& config) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.check.score() > b.check.score(); });
+  std::vector<char> claimed(scene.depth.size(), 0);
+  std::vector<Candidate> standing;
+  for (Candidate& c : candidates) {
+    int own = 0;
+    for (const std::uint32_t i : c.check.explained) own += !claimed[i];
+    if (own < config.least_own * c.check.inliers || own < config.least_pixels ||
+        own < config.least_explained * c.check.pixels)
+      continue;
+    const float slack = 0.002f + 2 * scene.sigma(static_cast<float>(c.fit.X_CP.translation().z()));
+    const bool clash = std::any_of(standing.begin(), standing.end(), [&](const Candidate& s) {
+      return overlap(*models[s.part], s.fit.X_CP, *models[c.part], c.fit.X_CP, slack) > config.largest_overlap;
+    });
+    if (clash) continue;
+    for (const std::uint32_t i : c.check.explained) claimed[i] = 1;
+    standing.push_back(std::move(c));
+  }
+  return standing;
+}
+
+}  // namespace binpick

@@ -1,0 +1,57 @@
+// The last word on a refined pose: the part is drawn at it and every pixel of its silhouette is compared with the scene
+// (inlier, covered, seen through, unknown), and just outside the outline it is asked whether the scene's surface simply
+// goes on (then the pose only leans on somebody else's larger face: a leak). Poses that claim the same pixels or the
+// same space are settled in favour of the better one. Frame C, metres.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pose_estimate.hpp"
+#include "perception/hypothesis_check.hpp"
+#include "perception/icp.hpp"
+#include "perception/part_view.hpp"
+
+namespace binpick {
+
+struct AcceptConfig {
+  double least_quality = 0.75;    ///< inliers / (inliers + contradictions)
+  double least_explained = 0.25;  ///< inliers / pixels of the whole silhouette
+  int least_pixels = 60;          ///< inliers
+  double largest_leak = 0.6;      ///< of the outline that could be judged
+  double least_own = 0.6;         ///< of a pose's inliers that no better pose claims
+  double largest_overlap = 0.1;   ///< of a pose's surface that may lie inside a better pose
+
+  void visit(ConfigVisitor& v);
+  void validate() const;
+};
+
+struct ViewCheck {
+  int pixels = 0, inliers = 0, covered = 0, through = 0, unknown = 0, off = 0;
+  double leak = 0;                        ///< share of the judged outline at which the surface goes on
+  std::vector<std::uint32_t> explained;   ///< indices of the inlier pixels in the image
+
+  double quality() const {
+    const double against = 2.0 * through + off;
+    return inliers > 0 ? inliers / (inliers + against) : 0;
+  }
+  double explained_share() const { return pixels > 0 ? static_cast<double>(inliers) / pixels : 0; }
+  double score() const { return quality() * explained_share() * (1 - 0.5 * leak); }
+};
+
+ViewCheck check_view(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
+
+bool accepted(const ViewCheck& check, const AcceptConfig& config);
+
+/// A refined pose with what speaks for it.
+struct Candidate {
+  std::size_t part = 0;
+  IcpResult fit;
+  ViewCheck check;
+};
+
+/// The candidates that can stand together, best first. `models[c.part]` is the model of candidate c.
+std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates, const std::vector<const SurfaceModel*>& models,
+                                         const Scene& scene, const AcceptConfig& config);
+
+}  // namespace binpick

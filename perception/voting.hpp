@@ -1,0 +1,42 @@
+// Hough voting (paper 4.1; Drost et al. 2010): every scene point in turn is a reference; each of its neighbours makes a
+// pair whose feature finds equal pairs of the model, and every such pair votes for (model reference, angle alpha about
+// the normal). A peak is a pose. Votes are integers and ties go to the earlier cell, so the answer is always the same.
+#pragma once
+
+#include <vector>
+
+#include "core/config.hpp"
+#include "core/point_cloud.hpp"
+#include "core/pose.hpp"
+#include "perception/pair_table.hpp"
+
+namespace binpick {
+
+struct VotingConfig {
+  double distance_step = 0;          ///< m; 0: relative_step x diameter. The paper's is 5 mm
+  double relative_step = 0.05;       ///< of the diameter: 5 mm on the paper's 100 mm bearing
+  double angle_step = 0.20943951;    ///< rad, 12 degrees (paper 4)
+  int reference_step = 4;            ///< every n-th scene point is a reference
+  double pair_radius = 0.6;          ///< of the diameter: longest pair that votes
+  int largest_cell = 600;            ///< cells with more entries (coplanar pairs) say little and cost most: skipped
+  int peaks = 3;                     ///< poses a reference may give
+  double peak_ratio = 0.7;           ///< of its best, for the further ones
+
+  void visit(ConfigVisitor& v);
+  void validate() const;
+  PairQuantiser quantiser(double diameter) const;
+};
+
+struct PoseHypothesis {
+  Pose X_CP = Pose::Identity();
+  double votes = 0;
+};
+
+/// Peaks of all references, in the order of the references. Both clouds carry normals.
+std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
+                                 const VotingConfig& config);
+
+/// The pose that lays a model reference and its pair onto a scene reference: alpha = scene angle - model angle (rad).
+Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, double alpha);
+
+}  // namespace binpick
