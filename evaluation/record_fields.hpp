@@ -1,0 +1,86 @@
+// The fields of a record, listed once for writing, hashing and reading. Private to this folder. An archive is called as
+// archive("key", value), archive.hash("key", value) and archive.list("key", items); the order here is the order of the
+// line.
+#pragma once
+
+#include "evaluation/trial_record.hpp"
+
+namespace binpick::record {
+
+template <class Archive, class Estimate>
+void estimate_fields(Archive& archive, Estimate& e) {
+  archive("estimate", e.estimate);
+  archive("instance", e.instance);
+  archive("score", e.score);
+  archive("fit_rms", e.fit_rms);
+  archive("right", e.right);
+  archive("right_tight", e.right_tight);
+  archive("right_2mm", e.right_2mm);
+  archive("ignored", e.ignored);
+  archive("mssd", e.error.mssd);
+  archive("add_s", e.error.add_s);
+  archive("translation", e.error.translation);
+  archive("rotation", e.error.rotation);
+  archive("abs_xyz", e.error.abs_xyz);
+  archive("abs_rpy", e.error.abs_rpy);
+}
+
+template <class Archive, class Pick>
+void pick_fields(Archive& archive, Pick& pick) {
+  archive("outcome", pick.outcome);
+  archive("reason", pick.reason);
+  archive("visible", pick.check.visible);
+  archive("found", pick.check.found);
+  archive("found_tight", pick.check.found_tight);
+  archive("found_2mm", pick.check.found_2mm);
+  archive("counted", pick.check.counted);
+  archive("right", pick.check.right);
+  archive.list("estimates", pick.check.estimates, [](auto& inner, auto& e) { estimate_fields(inner, e); });
+  archive("chosen", pick.chosen);
+  archive("lifted_body", pick.lifted_body);
+  archive("rejections", pick.rejections);
+  archive("sim_time", pick.sim_time);
+  archive("motion_time", pick.motion_time);
+  archive("place_error", pick.place_error);
+  archive("place_rotation", pick.place_rotation);
+  archive("swing", pick.swing);
+  archive("peak_force", pick.peak_force);
+  archive("neighbours_moved", pick.neighbours_moved);
+  archive.hash("frame_hash", pick.frame_hash);
+  archive.hash("estimates_hash", pick.estimates_hash);
+  archive.hash("world_hash", pick.world_hash);
+}
+
+/// Everything that enters the hash.
+template <class Archive, class Record>
+void trial_fields(Archive& archive, Record& record) {
+  archive("schema", record.schema);
+  archive("scenario", record.scenario);
+  archive("scenario_hash", record.scenario_hash);
+  archive("seed", record.seed.key);
+  archive("dropped", record.dropped);
+  archive("placed", record.placed);
+  archive("escaped", record.escaped);
+  archive("settled", record.settled);
+  archive("settle_time", record.settle_time);
+  archive("worst_penetration", record.worst_penetration);
+  archive.hash("drop_hash", record.drop_hash);
+  archive("error", record.error);
+  archive.list("picks", record.picks, [](auto& inner, auto& pick) { pick_fields(inner, pick); });
+}
+
+/// Wall times: outside the hash. The list is as long as `picks`.
+template <class Archive, class Record>
+void wall_fields(Archive& archive, Record& record) {
+  archive("total", record.wall_total);
+  archive.list("picks", record.picks, [](auto& inner, auto& pick) {
+    inner("preprocess", pick.wall.preprocess);
+    inner("voting", pick.wall.voting);
+    inner("verification", pick.wall.verification);
+    inner("icp", pick.wall.icp);
+    inner("total", pick.wall.total);
+    inner("plan", pick.plan_wall);
+  });
+}
+
+}  // namespace binpick::record
