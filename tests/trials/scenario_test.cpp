@@ -1,0 +1,47 @@
+#include "trials/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/file_io.hpp"
+#include "core/yaml.hpp"
+
+namespace binpick {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScenes = std::string(BINPICK_SOURCE_DIR) + "/scenes/";
+
+class ScenarioFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(ScenarioFiles, TheExpandedFileReplays) {
+  const Scenario scenario = read_scenario(kScenes + GetParam());
+  const fs::path folder = fs::temp_directory_path() / ("binpick_scenario_" + std::to_string(::getpid()));
+  make_folder(folder.string());
+  const std::string text = expanded_yaml(scenario, folder.string());
+  write_file((folder / "scenario.yaml").string(), text);
+  const Scenario again = read_scenario((folder / "scenario.yaml").string());
+  EXPECT_EQ(expanded_yaml(again, folder.string()), text);
+  EXPECT_EQ(scenario_hash(again), scenario_hash(scenario));
+  fs::remove_all(folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioFiles,
+                         testing::Values("bearing_bin.yaml", "bearing_bin_oracle.yaml", "bracket_bin.yaml", "tee_bin.yaml"));
+
+TEST(Scenario, EveryValueIsInTheHash) {
+  Scenario scenario = read_scenario(kScenes + "bearing_bin.yaml");
+  const std::string before = scenario_hash(scenario);
+  scenario.drop.height += 1e-9;
+  EXPECT_NE(scenario_hash(scenario), before);
+  scenario = read_scenario(kScenes + "bearing_bin.yaml");
+  scenario.parts[0].count = 9;
+  EXPECT_NE(scenario_hash(scenario), before);
+}
+
+}  // namespace
+}  // namespace binpick
