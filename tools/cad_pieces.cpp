@@ -1,0 +1,101 @@
+#include "cad_pieces.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "cad_dimensions.hpp"
+#include "core/convex_hull.hpp"
+#include "core/primitive.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr double kMetres = 0.001;  // per millimetre
+constexpr int kBossFacets = 12;
+
+/// Circumradius of the regular polygon with the area of a circle of radius r: n/2 R^2 sin(2 pi/n) = pi r^2.
+double polygon_radius(double r, int facets) {
+  const double step = 2 * std::numbers::pi / facets;
+  return r * std::sqrt(step / std::sin(step));
+}
+
+Eigen::Vector3d on_circle(double radius, double angle, double z) {
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// Box between two corners given in millimetres.
+TriangleMesh block(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  const Eigen::Vector3d middle = kMetres * (low + high) / 2;
+  return mesh_of(Primitive::box(kMetres * (high - low), Pose(Eigen::Translation3d(middle))));
+}
+
+}  // namespace
+
+TriangleMesh ring_envelope(double inner, double outer, double width, int facets) {
+  TriangleMesh mesh;
+  const auto n = static_cast<std::uint32_t>(facets);
+  const double radii[2] = {polygon_radius(inner, facets), polygon_radius(outer, facets)};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / facets;
+    for (const double r : radii) {
+      for (const double z : {-width / 2, width / 2}) mesh.vertices.push_back(on_circle(r, angle, z));
+    }
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t a = 4 * i;              // inner low, inner high, outer low, outer high
+    const std::uint32_t b = 4 * ((i + 1) % n);  // the same at the next angle
+    quad(a + 2, b + 2, b + 3, a + 3);
+    quad(a, a + 1, b + 1, b);
+    quad(a + 1, a + 3, b + 3, b + 1);
+    quad(a, b, b + 2, a + 2);
+  }
+  return mesh;
+}
+
+std::vector<TriangleMesh> ring_wedges(double inner, double outer, double width) {
+  constexpr int kWedges = 8;
+  constexpr int kFacets = 3;
+  const double inner_radius = polygon_radius(inner, kWedges);
+  const double outer_radius = polygon_radius(outer, kWedges * kFacets);
+  const double step = 2 * std::numbers::pi / (kWedges * kFacets);
+  std::vector<TriangleMesh> wedges;
+  for (int wedge = 0; wedge < kWedges; ++wedge) {
+    std::vector<Eigen::Vector3d> points;
+    for (const double z : {-width / 2, width / 2}) {
+      for (int k = 0; k <= kFacets; ++k) points.push_back(on_circle(outer_radius, (wedge * kFacets + k) * step, z));
+      for (const int k : {0, kFacets}) points.push_back(on_circle(inner_radius, (wedge * kFacets + k) * step, z));
+    }
+    wedges.push_back(convex_hull(points));
+  }
+  return wedges;
+}
+
+std::vector<TriangleMesh> bearing_pieces() {
+  return ring_wedges(kMetres * bearing::kInnerRadius, kMetres * bearing::kOuterRadius, kMetres * bearing::kWidth);
+}
+
+std::vector<TriangleMesh> bracket_pieces() {
+  using namespace bracket;
+  std::vector<Eigen::Vector3d> boss;
+  for (int k = 0; k < kBossFacets; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kBossFacets;
+    for (const double z : {kPlate, kPlate + kBossHeight}) {
+      const Eigen::Vector3d center(kBossX, kBossY, 0);
+      boss.push_back(kMetres * (center + on_circle(polygon_radius(kBossRadius, kBossFacets), angle, z)));
+    }
+  }
+  return {block({0, 0, 0}, {kLength, kWidth, kPlate}), block({0, 0, kPlate}, {kPlate, kWidth, kHeight}),
+          convex_hull(boss)};
+}
+
+std::vector<TriangleMesh> tee_pieces() {
+  using namespace tee;
+  const double x = kLength / 2, top = kHeight / 2, z = kThickness / 2;
+  return {block({-x, top - kBar, -z}, {x, top, z}), block({-kStem / 2, -top, -z}, {kStem / 2, top - kBar, z})};
+}
+
+}  // namespace binpick

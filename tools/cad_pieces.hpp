@@ -1,0 +1,21 @@
+// Convex pieces and envelopes of our own parts, in metres, frame P. Round outlines become polygons of the same area, so
+// that volume and mass are true.
+#pragma once
+
+#include <vector>
+
+#include "core/mesh.hpp"
+
+namespace binpick {
+
+/// Closed ring of rectangular section about z, `facets` sides, its volume exactly that of the round ring.
+TriangleMesh ring_envelope(double inner, double outer, double width, int facets);
+
+/// The ring as eight wedges with three outer facets each: a 24-gon outside, an 8-gon as hole.
+std::vector<TriangleMesh> ring_wedges(double inner, double outer, double width);
+
+std::vector<TriangleMesh> bearing_pieces();
+std::vector<TriangleMesh> bracket_pieces();
+std::vector<TriangleMesh> tee_pieces();
+
+}  // namespace binpick
