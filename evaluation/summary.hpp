@@ -1,5 +1,6 @@
 // A campaign in one object: rates with intervals, errors, stage times. summary.json is the stable surface of
-// ARCHITECTURE section 14. Picks of one pile are not independent: intervals are cluster bootstraps over piles.
+// ARCHITECTURE section 14. Picks of one pile are not independent: intervals are cluster bootstraps over piles. What no
+// record tells (the rate of nothing, the median of nothing) is NaN here and null in JSON.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ namespace binpick {
 struct Rate {
   std::size_t hits = 0;
   std::size_t total = 0;
-  double rate = 0;
+  double rate = 0;    ///< NaN when total is 0
   Interval interval;  ///< 95 %
 };
 
@@ -31,23 +32,25 @@ struct CampaignSummary {
   std::string scenario;
   std::size_t trials = 0;
   Rate cleared;           ///< parts at rest in the tray / dropped
-  Rate picks;             ///< succeeded / attempted
+  Rate picks;             ///< succeeded / attempted: every pick record but BinEmpty, whatever ended it
   Rate recall;            ///< found / visible >= 0.5, over every look
   Rate precision;         ///< right / counted
   Rate recall_first_look; ///< the full heap only
   Rate recall_tight, recall_2mm;  ///< at 0.05 diameter and at 2 mm
   std::map<std::string, StageSummary> stages;  ///< preprocess, voting, verification, icp, estimate_total, plan (wall)
-  double translation_median = 0, translation_p95 = 0;  ///< m, right estimates
+  std::size_t measured = 0;                            ///< right estimates behind the errors below
+  double translation_median = 0, translation_p95 = 0;  ///< m
   double rotation_median = 0, rotation_p95 = 0;        ///< rad
   Eigen::Vector3d mean_abs_xyz = Eigen::Vector3d::Zero(), mean_abs_rpy = Eigen::Vector3d::Zero();
   double cycle_median = 0;             ///< s simulated, succeeded picks
   double motion_mean = 0;              ///< s simulated, succeeded picks (paper's "moving robot")
-  double simulated_picks_per_hour = 0, throughput_per_hour = 0;
+  double simulated_picks_per_hour = 0, throughput_per_hour = 0;  ///< 0: unknown
   std::map<std::string, std::size_t> outcomes;
   std::map<std::string, std::vector<std::uint64_t>> outcome_seeds;  ///< the failure list: which seeds to replay
   std::string records_hash;
 };
 
+/// Independent of the records' order. `campaign_wall_seconds` <= 0: unknown.
 CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_wall_seconds);
 std::string summary_json(const CampaignSummary& summary);
 

@@ -1,0 +1,71 @@
+#include "evaluation/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/check.hpp"
+
+namespace binpick {
+
+Interval wilson_interval(std::size_t hits, std::size_t total, double confidence) {
+  BP_CHECK(hits <= total, hits << " of " << total);
+  BP_CHECK(confidence > 0 && confidence < 1, "confidence " << confidence);
+  if (total == 0) return {0, 1};
+  // Wilson 1927: the p for which the observed share is z standard errors away.
+  const double z = boost::math::quantile(boost::math::normal(), 0.5 + confidence / 2);
+  const double n = static_cast<double>(total), p = static_cast<double>(hits) / n;
+  const double middle = p + z * z / (2 * n);
+  const double spread = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 1 + z * z / n;
+  return {hits == 0 ? 0.0 : std::max(0.0, (middle - spread) / scale),
+          hits == total ? 1.0 : std::min(1.0, (middle + spread) / scale)};
+}
+
+Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples, double confidence) {
+  BP_CHECK(resamples > 0, "resamples " << resamples);
+  std::vector<ClusterCount> counted;  // a pile that asked nothing says nothing
+  ClusterCount pooled;
+  for (const ClusterCount& pile : piles) {
+    BP_CHECK(pile.hits >= 0 && pile.hits <= pile.total, pile.hits << " of " << pile.total);
+    if (pile.total <= 0) continue;
+    counted.push_back(pile);
+    pooled.hits += pile.hits;
+    pooled.total += pile.total;
+  }
+  if (counted.size() < 2 || pooled.hits <= 0 || pooled.hits >= pooled.total) {
+    return wilson_interval(static_cast<std::size_t>(std::llround(pooled.hits)),
+                           static_cast<std::size_t>(std::llround(pooled.total)), confidence);
+  }
+  std::vector<double> rates;
+  for (int i = 0; i < resamples; ++i) {
+    Rng rng = seed.child("resample", static_cast<std::uint64_t>(i)).rng();
+    ClusterCount drawn;
+    for (std::size_t k = 0; k < counted.size(); ++k) {
+      const ClusterCount& pile = counted[rng.below(counted.size())];
+      drawn.hits += pile.hits;
+      drawn.total += pile.total;
+    }
+    rates.push_back(drawn.hits / drawn.total);
+  }
+  return {quantile(rates, (1 - confidence) / 2), quantile(rates, (1 + confidence) / 2)};
+}
+
+double quantile(std::vector<double> values, double q) {
+  BP_CHECK(q >= 0 && q <= 1, "q " << q);
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double place = q * static_cast<double>(values.size() - 1);  // Hyndman and Fan's type 7
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double mean(std::span<const double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace binpick

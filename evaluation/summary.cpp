@@ -1,0 +1,186 @@
+#include "evaluation/summary.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "core/hash.hpp"
+
+namespace binpick {
+namespace {
+
+using Records = std::vector<const TrialRecord*>;
+
+Records sorted_by_seed(std::span<const TrialRecord> records) {
+  Records sorted;
+  for (const TrialRecord& record : records) sorted.push_back(&record);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const TrialRecord* a, const TrialRecord* b) { return a->seed.key < b->seed.key; });
+  return sorted;
+}
+
+struct Count {
+  std::size_t hits = 0, total = 0;
+  Count& operator+=(const Count& other) {
+    hits += other.hits;
+    total += other.total;
+    return *this;
+  }
+};
+
+Rate rate_of(const Records& records, const char* name, const std::function<Count(const TrialRecord&)>& count) {
+  Count sum;
+  std::vector<ClusterCount> piles;
+  for (const TrialRecord* record : records) {
+    const Count pile = count(*record);
+    sum += pile;
+    piles.push_back({static_cast<double>(pile.hits), static_cast<double>(pile.total)});
+  }
+  Rate rate;
+  rate.hits = sum.hits;
+  rate.total = sum.total;
+  rate.rate = sum.total == 0 ? std::numeric_limits<double>::quiet_NaN()
+                             : static_cast<double>(sum.hits) / static_cast<double>(sum.total);
+  rate.interval = cluster_bootstrap(piles, Seed{}.child("summary").child(name));
+  return rate;
+}
+
+/// A count summed over the looks of a trial.
+std::function<Count(const TrialRecord&)> over_looks(const std::function<Count(const PoseCheck&)>& count) {
+  return [count](const TrialRecord& record) {
+    Count sum;
+    for (const PickRecord& pick : record.picks) sum += count(pick.check);
+    return sum;
+  };
+}
+
+Count count_picks(const TrialRecord& record) {
+  Count count;
+  for (const PickRecord& pick : record.picks) {
+    if (pick.outcome == PickOutcome::kBinEmpty) continue;
+    ++count.total;
+    if (pick.outcome == PickOutcome::kSucceeded) ++count.hits;
+  }
+  return count;
+}
+
+Count count_first_look(const TrialRecord& record) {
+  if (record.picks.empty()) return {};
+  return {record.picks.front().check.found, record.picks.front().check.visible};
+}
+
+void add_rates(const Records& records, CampaignSummary& summary) {
+  summary.cleared = rate_of(records, "cleared", [](const TrialRecord& record) {
+    return Count{static_cast<std::size_t>(record.placed), static_cast<std::size_t>(record.dropped)};
+  });
+  summary.picks = rate_of(records, "picks", count_picks);
+  using Check = const PoseCheck&;
+  summary.recall = rate_of(records, "recall", over_looks([](Check c) { return Count{c.found, c.visible}; }));
+  summary.precision = rate_of(records, "precision", over_looks([](Check c) { return Count{c.right, c.counted}; }));
+  summary.recall_first_look = rate_of(records, "recall_first_look", count_first_look);
+  summary.recall_tight = rate_of(records, "recall_tight", over_looks([](Check c) {
+                                   return Count{c.found_tight, c.visible};
+                                 }));
+  summary.recall_2mm = rate_of(records, "recall_2mm", over_looks([](Check c) {
+                                 return Count{c.found_2mm, c.visible};
+                               }));
+}
+
+void add_errors(const Records& records, CampaignSummary& summary) {
+  std::vector<double> translations, rotations;
+  Eigen::Vector3d xyz = Eigen::Vector3d::Zero(), rpy = Eigen::Vector3d::Zero();
+  for (const TrialRecord* record : records) {
+    for (const PickRecord& pick : record->picks) {
+      for (const MatchedEstimate& estimate : pick.check.estimates) {
+        if (!estimate.right || estimate.ignored) continue;
+        translations.push_back(estimate.error.translation);
+        rotations.push_back(estimate.error.rotation);
+        xyz += estimate.error.abs_xyz;
+        rpy += estimate.error.abs_rpy;
+      }
+    }
+  }
+  summary.measured = translations.size();
+  summary.translation_median = quantile(translations, 0.5);
+  summary.translation_p95 = quantile(translations, 0.95);
+  summary.rotation_median = quantile(rotations, 0.5);
+  summary.rotation_p95 = quantile(rotations, 0.95);
+  const double count = static_cast<double>(translations.size());  // 0 / 0 is the NaN that is meant
+  summary.mean_abs_xyz = xyz / count;
+  summary.mean_abs_rpy = rpy / count;
+}
+
+/// Wall times of the looks that reached the stage at all.
+void add_stages(const Records& records, CampaignSummary& summary) {
+  std::map<std::string, std::vector<double>> seconds = {
+      {"preprocess", {}}, {"voting", {}}, {"verification", {}}, {"icp", {}}, {"estimate_total", {}}, {"plan", {}}};
+  for (const TrialRecord* record : records) {
+    for (const PickRecord& pick : record->picks) {
+      if (pick.plan_wall > 0) seconds["plan"].push_back(pick.plan_wall);
+      if (!(pick.wall.total > 0)) continue;
+      seconds["preprocess"].push_back(pick.wall.preprocess);
+      seconds["voting"].push_back(pick.wall.voting);
+      seconds["verification"].push_back(pick.wall.verification);
+      seconds["icp"].push_back(pick.wall.icp);
+      seconds["estimate_total"].push_back(pick.wall.total);
+    }
+  }
+  for (const auto& [stage, values] : seconds) {
+    summary.stages[stage] = {quantile(values, 0.5), quantile(values, 0.95), mean(values)};
+  }
+}
+
+void add_cycle(const Records& records, double campaign_wall_seconds, CampaignSummary& summary) {
+  std::vector<double> cycles, motions;
+  for (const TrialRecord* record : records) {
+    for (const PickRecord& pick : record->picks) {
+      if (pick.outcome != PickOutcome::kSucceeded) continue;
+      cycles.push_back(pick.sim_time);
+      motions.push_back(pick.motion_time);
+    }
+  }
+  summary.cycle_median = quantile(cycles, 0.5);
+  summary.motion_mean = mean(motions);
+  summary.simulated_picks_per_hour = summary.cycle_median > 0 ? 3600 / summary.cycle_median : 0;
+  summary.throughput_per_hour =
+      campaign_wall_seconds > 0 ? 3600 * static_cast<double>(summary.picks.total) / campaign_wall_seconds : 0;
+}
+
+void add_outcomes(const Records& records, CampaignSummary& summary) {
+  for (const TrialRecord* record : records) {
+    for (const PickRecord& pick : record->picks) {
+      const std::string name = to_string(pick.outcome);
+      ++summary.outcomes[name];
+      if (pick.outcome == PickOutcome::kSucceeded || pick.outcome == PickOutcome::kBinEmpty) continue;
+      std::vector<std::uint64_t>& seeds = summary.outcome_seeds[name];
+      if (seeds.empty() || seeds.back() != record->seed.key) seeds.push_back(record->seed.key);
+    }
+  }
+}
+
+std::string records_hash(const Records& records) {
+  Hasher hasher;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
+  for (const TrialRecord* record : records) pairs.emplace_back(record->seed.key, record_hash(*record));
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [seed, hash] : pairs) hasher.add(seed).add(hash);
+  return hex(hasher.value());
+}
+
+}  // namespace
+
+CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_wall_seconds) {
+  const Records sorted = sorted_by_seed(records);
+  CampaignSummary summary;
+  summary.scenario = sorted.empty() ? "" : sorted.front()->scenario;
+  summary.trials = sorted.size();
+  add_rates(sorted, summary);
+  add_errors(sorted, summary);
+  add_stages(sorted, summary);
+  add_cycle(sorted, campaign_wall_seconds, summary);
+  add_outcomes(sorted, summary);
+  summary.records_hash = records_hash(sorted);
+  return summary;
+}
+
+}  // namespace binpick
