@@ -15,6 +15,7 @@ Action add_campaign(CLI::App& app);
 Action add_worker(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_check(CLI::App& app);
+Action add_estimate(CLI::App& app);
 Action add_list(CLI::App& app);
 
 /// "A:B" means seeds A .. B-1. Throws SpecError.

@@ -102,13 +102,22 @@ Image<Rgb> overlay_picture(const Image<Rgb>& base, const DepthFrame& frame, cons
   return picture;
 }
 
-void TrialPictures::save(int pick, const std::string& name, const Image<Rgb>& image) {
-  make_folder(folder_);
+std::string TrialPictures::path(int pick, const std::string& name) const {
   char prefix[16];
   std::snprintf(prefix, sizeof prefix, "%02d_", pick);
-  const std::string path = folder_ + "/" + prefix + name + ".png";
-  write_png(path, image);
-  files_.push_back(path);
+  return folder_ + "/" + prefix + name;
+}
+
+void TrialPictures::save(int pick, const std::string& name, const Image<Rgb>& image) {
+  make_folder(folder_);
+  write_png(path(pick, name + ".png"), image);
+  files_.push_back(path(pick, name + ".png"));
+}
+
+void TrialPictures::frame(int pick, const FrameRequest& request, const SceneView& view, const EstimateResult& found) {
+  if (pick >= looks_) return;
+  write_frame_folder(path(pick, "frame"), request, view);
+  write_file(path(pick, "frame") + "/estimates.csv", estimates_csv(found));
 }
 
 void TrialPictures::look(int pick, DepthRenderer& renderer, const CellWorld& cell_world, const DepthFrame& frame,

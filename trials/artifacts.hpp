@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/pose_estimate.hpp"
+#include "perception/frame_request.hpp"
 #include "sim/depth_sensor.hpp"
 #include "trials/cell_world.hpp"
 
@@ -26,10 +27,13 @@ class TrialPictures {
 
   void look(int pick, DepthRenderer& renderer, const CellWorld& cell_world, const DepthFrame& frame,
             const EstimateResult& found);
+  /// The frame as a folder that `binpick estimate` reads, with the estimates beside it.
+  void frame(int pick, const FrameRequest& request, const SceneView& view, const EstimateResult& found);
   void moment(int pick, const char* name, DepthRenderer& renderer, const CellWorld& cell_world);
   const std::vector<std::string>& files() const { return files_; }
 
  private:
+  std::string path(int pick, const std::string& name) const;
   void save(int pick, const std::string& name, const Image<Rgb>& image);
   std::string folder_;
   int looks_;

@@ -104,17 +104,30 @@ int count_in(const CellWorld& cell_world, bool (CellWorld::*where)(std::size_t) 
   return count;
 }
 
+FrameRequest frame_request(const Scenario& s, Seed seed) {
+  FrameRequest request;
+  for (const PartEntry& entry : s.parts) request.parts.push_back(entry.spec);
+  request.seed = seed;
+  request.estimator_type = s.estimator_type;
+  request.estimator = s.estimator;
+  return request;
+}
+
 // One turn of the loop: look, estimate, check, plan, pick.
 PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, int pick,
                      TrialPictures* pictures) {
   PickRecord record;
   record.sim_time = s.trial.exposure;
   const Observation seen = observe(s, cell_world, context, seed, pick, record);
-  const EstimateResult found = estimate(s, context, seen, seed.child("estimator", static_cast<std::uint64_t>(pick)));
+  const Seed estimator_seed = seed.child("estimator", static_cast<std::uint64_t>(pick));
+  const EstimateResult found = estimate(s, context, seen, estimator_seed);
   record.wall = found.wall;
   record.estimates_hash = estimates_hash(found);
   record.check = check_poses(found, seen.X_WC_believed, seen.truth, context.parts);  // before the arm moves
-  if (pictures) pictures->look(pick, *context.renderer, cell_world, std::get<DepthFrame>(seen.view.seen), found);
+  if (pictures) {
+    pictures->look(pick, *context.renderer, cell_world, std::get<DepthFrame>(seen.view.seen), found);
+    if (s.estimator) pictures->frame(pick, frame_request(s, estimator_seed), seen.view, found);
+  }
   if (found.status != EstimateStatus::kFound) {
     const bool failed = found.status == EstimateStatus::kFailed;
     record.outcome = failed ? PickOutcome::kEstimatorFailed : PickOutcome::kNoDetection;

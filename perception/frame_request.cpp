@@ -1,0 +1,127 @@
+#include "perception/frame_request.hpp"
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/file_io.hpp"
+#include "core/image_io.hpp"
+#include "core/quantity.hpp"
+#include "core/yaml.hpp"
+
+namespace binpick {
+namespace {
+
+struct PartItem {
+  PartSpec& spec;
+  void visit(ConfigVisitor& v) {
+    if (v.reading() && v.is_scalar("part")) {
+      std::string path;
+      v.path("part", path, "part.yaml");
+      spec = read_part_spec(path);
+    } else {
+      v.section("part", spec, "a path of a part.yaml, or a mapping with its keys");
+    }
+  }
+};
+
+void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
+  v.section_with("noise", [&](ConfigVisitor& in) {
+    in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
+    in.field("linear", noise.linear, Unit::kNone, "m per m");
+    in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
+    in.field("fattening_px", noise.fattening_px, Unit::kNone, "how far foreground grows over its outline, in pixels");
+  }, "the noise that the camera's data sheet states");
+}
+
+// The seed is a 64-bit key: as text, since a YAML number here is a double or an int.
+void visit_seed(ConfigVisitor& v, Seed& seed) {
+  std::string text = std::to_string(seed.key);
+  v.field("seed", text, "seed of the estimator");
+  if (!v.reading()) return;
+  try {
+    std::size_t used = 0;
+    seed.key = std::stoull(text, &used);
+    if (used != text.size() || text[0] == '-') throw std::invalid_argument(text);
+  } catch (const std::exception&) {
+    v.fail("seed", "'" + text + "' is not a whole number");
+  }
+}
+
+}  // namespace
+
+void FrameRequest::visit(ConfigVisitor& v) {
+  v.section("camera", camera, "intrinsics of depth.tiff");
+  visit_noise(v, noise);
+  v.list_with("parts", parts.size(), [&](std::size_t n) { parts.resize(n); },
+              [&](std::size_t i, ConfigVisitor& in) { PartItem{parts[i]}.visit(in); }, "[{part: ..}] that may be seen");
+  if (v.reading()) has_bin = v.has("bin");
+  if (has_bin) {
+    v.section("bin", bin, "inner size and walls of the bin, when there is one");
+    v.field("X_CB", X_CB, "believed pose of the bin (centre of its inner floor, z up) in the camera frame");
+  }
+  visit_seed(v, seed);
+  if (v.reading()) estimator = nullptr;
+  v.section_with("estimator", [&](ConfigVisitor& in) {
+    in.choice("type", estimator_type, estimator_names(), "pose estimator");
+    if (!estimator) estimator = make_estimator(estimator_type);
+    estimator->visit(in);
+  }, "the pose estimator");
+  if (!estimator) estimator = make_estimator(estimator_type);
+}
+
+void FrameRequest::validate() const {
+  camera.validate();
+  if (parts.empty()) throw SpecError("parts: at least one part must be named");
+  for (const PartSpec& part : parts) part.validate();
+  if (has_bin) bin.validate();
+  estimator->validate();
+}
+
+RecordedFrame read_frame_folder(const std::string& folder) {
+  RecordedFrame frame;
+  read_yaml_file(folder + "/request.yaml", [&](ConfigVisitor& v) {
+    frame.request.visit(v);
+    frame.request.validate();
+  });
+  DepthFrame depth;
+  depth.camera = frame.request.camera;
+  depth.noise = frame.request.noise;
+  depth.depth = read_tiff(folder + "/depth.tiff");
+  if (depth.depth.width() != depth.camera.width || depth.depth.height() != depth.camera.height)
+    throw AssetError(folder + "/depth.tiff: has " + std::to_string(depth.depth.width()) + " x " +
+                     std::to_string(depth.depth.height()) + " pixels, request.yaml says " +
+                     std::to_string(depth.camera.width) + " x " + std::to_string(depth.camera.height));
+  frame.view.seen = std::move(depth);
+  if (frame.request.has_bin) frame.view.bin = frame.request.bin;
+  frame.view.X_CB = frame.request.X_CB;
+  return frame;
+}
+
+void write_frame_folder(const std::string& folder, const FrameRequest& request, const SceneView& view) {
+  make_folder(folder);
+  FrameRequest copy = request;
+  const DepthFrame& frame = std::get<DepthFrame>(view.seen);
+  copy.camera = frame.camera;
+  copy.noise = frame.noise;
+  copy.has_bin = view.bin.has_value();
+  if (view.bin) copy.bin = *view.bin;
+  copy.X_CB = view.X_CB;
+  write_file(folder + "/request.yaml",
+             write_yaml([&](ConfigVisitor& v) { copy.visit(v); }, std::filesystem::absolute(folder).string()));
+  write_tiff(folder + "/depth.tiff", frame.depth);
+}
+
+std::string estimates_csv(const EstimateResult& result) {
+  std::string text = "part,score,fit_rms,inlier_fraction,r11,r12,r13,r21,r22,r23,r31,r32,r33,tx,ty,tz\n";
+  for (const PoseEstimate& e : result.estimates) {
+    text += std::to_string(e.part);
+    for (const double value : {e.score, e.fit_rms, e.inlier_fraction}) text += "," + format_double(value);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) text += "," + format_double(e.X_CP.linear()(r, c));
+    for (int i = 0; i < 3; ++i) text += "," + format_double(e.X_CP.translation()[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace binpick
