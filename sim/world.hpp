@@ -66,7 +66,7 @@ class World {
   double step(double dt);  ///< one step of a stated length (motion in lockstep with the arm)
   double time() const;
   int body_count() const;
-  enum class BodyKind { kFree, kFixed, kMoved };
+  enum class BodyKind { kFree, kFixed, kMoved, kLip };  ///< a lip is dynamic, but no part (hold.hpp)
   BodyKind kind(BodyId body) const;
   bool present(BodyId body) const;
   Eigen::Vector3d mass_center(BodyId body) const;       ///< in W
