@@ -1,5 +1,5 @@
-// A 6-joint serial arm from a URDF: joints, limits, link shapes, forward kinematics. R is the robot base (the URDF's root
-// link), F the flange (its tip link). Joint vectors are radians in URDF order and sign.
+// A 6-joint serial arm from a URDF: joints, limits, link shapes, forward kinematics. R is the robot base (the URDF's
+// root link), F the flange (its tip link). Joint vectors are radians in URDF order and sign.
 #pragma once
 
 #include <array>
@@ -18,18 +18,25 @@ struct JointLimits {
 };
 
 /// Spherical-wrist geometry in the parameters of Brandstoetter, Angerer, Hofbaur 2014 (OPW); physical_models C1, C3.
+/// Frame O is the method's base (z along joint 1), E its end frame: X_RF = X_RO * X_OE(q_opw) * X_EF.
 struct OpwParameters {
   double a1 = 0, a2 = 0, b = 0, c1 = 0, c2 = 0, c3 = 0, c4 = 0;  ///< m
   std::array<double, 6> offset{};                                ///< rad: q_opw = sign * q - offset
   std::array<int, 6> sign{1, 1, 1, 1, 1, 1};
+  Pose X_RO = Pose::Identity();
+  Pose X_EF = Pose::Identity();
 };
 
 class Arm {
  public:
-  static Arm load(const std::string& urdf_path);  ///< throws AssetError
+  /// Reads a URDF with primitive collision geometry (meshes count as their bounding box) and finds its OPW parameters.
+  /// Throws AssetError: missing or malformed file, not six revolute joints between root and tip (the link named
+  /// `flange`, else `tool0`, else the only leaf), a limit or speed missing, axes that no OPW arm has.
+  static Arm load(const std::string& urdf_path);
 
-  Pose forward(const Vector6d& q) const;                 ///< X_RF
-  std::vector<Pose> link_poses(const Vector6d& q) const; ///< X_RL of every link, base first
+  Pose forward(const Vector6d& q) const;  ///< X_RF
+  /// X_RL of the seven rigid links, base first; links that hang on fixed joints count to the link that carries them.
+  std::vector<Pose> link_poses(const Vector6d& q) const;
   /// Collision primitives of every link, in the link's frame L; same order as link_poses.
   const std::vector<std::vector<Primitive>>& link_shapes() const { return link_shapes_; }
   const std::vector<std::string>& link_names() const { return link_names_; }

@@ -1,6 +1,6 @@
-// The interface of the grippers. Frame G: gripper tip (cup lip centre, or centre of the cups' plane), +z leaves the tool.
-// The gripper judges the perceived surface when planning and the true surface when executing: the difference is exactly
-// what perception error costs.
+// The interface of the grippers. Frame G: gripper tip (cup lip centre, or centre of the cups' plane), +z leaves the
+// tool. The gripper judges the perceived surface when planning and the true surface when executing: the difference is
+// exactly what perception error costs.
 #pragma once
 
 #include <memory>
@@ -26,17 +26,17 @@ struct SurfaceSample {
 };
 
 struct Contact {
-  bool sealed = false;              ///< enough cups for this gripper
+  bool sealed = false;  ///< enough cups for this gripper
   std::vector<bool> cup_sealed;
-  std::vector<std::string> why;     ///< per cup: why not, "" when sealed
-  HoldLimits limits;                ///< of the cups that sealed, about G
+  std::vector<std::string> why;  ///< per cup: why not, "" when sealed
+  HoldLimits limits;             ///< of the cups that sealed, about G
 };
 
 /// A grasp on a part: K on the surface, +z outward; at contact z_G = -z_K, X_WG = X_WP * X_PK * X_KG.
 struct PickSite {
   Pose X_PK = Pose::Identity();
-  bool free_spin = false;   ///< any turn about z_K is as good
-  double quality = 1;       ///< 0..1: how well the surface seals and how near the mass centre is
+  bool free_spin = false;  ///< any turn about z_K is as good
+  double quality = 1;      ///< 0..1: how well the surface seals and how near the mass centre is
 };
 
 class Gripper {

@@ -7,8 +7,8 @@
 
 namespace binpick {
 
-/// All solutions of forward(q) = X_RF inside the joint limits (full turns of joint 6 and 4 included where the limits allow
-/// them), sorted by the largest joint motion from q_near. Empty when out of reach.
+/// All solutions of forward(q) = X_RF inside the joint limits (full turns of joint 6 and 4 included where the limits
+/// allow them), sorted by the largest joint motion from q_near. Empty when out of reach.
 std::vector<Vector6d> inverse_kinematics(const Arm& arm, const Pose& X_RF, const Vector6d& q_near);
 
 /// The up to eight branches of the geometry itself, limits ignored, each joint in (-pi, pi].

@@ -3,13 +3,14 @@
 
 #include <vector>
 
+#include "core/config.hpp"
 #include "robot/arm.hpp"
 
 namespace binpick {
 
 struct JointTrajectory {
-  std::vector<double> times;    ///< s, ascending, first 0
-  std::vector<Vector6d> q;      ///< rad, linear between
+  std::vector<double> times;  ///< s, ascending, first 0
+  std::vector<Vector6d> q;    ///< rad, linear between
 
   bool empty() const { return q.empty(); }
   double duration() const { return times.empty() ? 0 : times.back(); }
@@ -17,16 +18,21 @@ struct JointTrajectory {
 };
 
 struct MotionLimits {
-  double speed_override = 0.5;        ///< share of the arm's joint speeds; the paper runs at 50 %
-  double acceleration_time = 0.35;    ///< s to reach full joint speed: acceleration limit = full speed / this
-  double linear_speed = 0.25;         ///< m/s along straight approach and retreat, at full override
+  double speed_override = 0.5;      ///< share of the arm's joint speeds; the paper runs at 50 %
+  double acceleration_time = 0.35;  ///< s to reach full joint speed: acceleration limit = full speed / this
+  double linear_speed = 0.25;       ///< m/s along straight approach and retreat, at full override
+
+  void visit(ConfigVisitor& v);
+  void validate() const;
 };
 
-/// Synchronised point-to-point motion: every joint trapezoidal over the same time, none above its limits.
+/// Synchronised point-to-point motion: every joint follows one trapezoidal profile over the same time, none above its
+/// limits. With D, v, a of the slowest joint: T = D/v + v/a if D >= v^2/a, else 2 sqrt(D/a) (physical_models C3).
 JointTrajectory joint_move(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, const MotionLimits& limits);
 
-/// Straight Cartesian motion of the flange from `q_from` to X_RF_to, inverse kinematics followed along one branch in steps
-/// of at most 2 mm and 1 degree. Empty when it leaves the workspace, a limit or the branch, or a joint would be too fast.
+/// Straight Cartesian motion of the flange from `q_from` to X_RF_to, inverse kinematics followed along one branch in
+/// steps of at most 2 mm and 1 degree; slower than `linear_speed` where a joint would exceed its speed or acceleration.
+/// Empty when it leaves the workspace, a limit or the branch.
 JointTrajectory linear_move(const Arm& arm, const Vector6d& q_from, const Pose& X_RF_to, const MotionLimits& limits);
 
 /// One after the other.

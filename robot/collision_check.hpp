@@ -1,0 +1,58 @@
+// Arm links, tool and camera against everything the robot knows: bin, table, tray, itself, and the perceived heap. All
+// shapes are primitives; the heap is points. Frames: links in their own, tool and camera in the flange frame F.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "robot/cell.hpp"
+#include "robot/obstacle_map.hpp"
+
+namespace binpick {
+
+enum class Obstacle { kNone, kBin, kTable, kTray, kSelf, kHeap };
+std::string to_string(Obstacle obstacle);
+
+class CollisionCheck {
+ public:
+  /// `clearance` is kept from everything but the arm itself.
+  CollisionCheck(const Cell& cell, double clearance);
+
+  /// From now on the heap counts too, without the points whose entry in `ignored` is not 0.
+  void set_heap(const ObstacleMap* heap) { heap_ = heap; }
+  void set_ignored(std::vector<char> ignored) { ignored_ = std::move(ignored); }
+
+  /// The first obstacle met by the arm, the tool or the camera at q.
+  Obstacle hit(const Vector6d& q) const;
+  /// The same for tool and camera alone, flange at X_WF: quicker, and asks for no inverse kinematics.
+  Obstacle tool_hit(const Pose& X_WF) const;
+  /// The first obstacle along a trajectory, sampled so that nothing moves more than about `step` in between.
+  Obstacle path_hit(const JointTrajectory& path, double step = 0.02) const;
+  /// Points of a held part against bin, tray and table, deeper than `allowed`.
+  Obstacle points_hit(const std::vector<Eigen::Vector3d>& points_W, double allowed) const;
+
+ private:
+  struct Solid {
+    Primitive shape;
+    double radius = 0;  ///< of the bounding sphere
+    int link = 0;       ///< 0 .. 6: links; 7: tool and camera
+    Obstacle kind = Obstacle::kNone;
+    Pose X_WS = Pose::Identity();  ///< of standing solids
+  };
+  struct Placed {
+    const Solid* solid;
+    Pose X_WS;
+  };
+  Obstacle standing_hit(const Placed& mover) const;
+  bool heap_hit(const Placed& mover) const;
+  bool self_hit(const std::vector<Placed>& movers) const;
+
+  const Cell* cell_;
+  double clearance_;
+  const ObstacleMap* heap_ = nullptr;
+  std::vector<char> ignored_;
+  std::vector<Solid> standing_, links_, tool_F_;
+};
+
+}  // namespace binpick

@@ -1,0 +1,105 @@
+#include "robot/inverse_kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "robot/opw_geometry.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+// Wrists with sin(q5) below this count as singular: only q4 + q6 (or q4 - q6) is defined there, so q4 is given.
+constexpr double kSingular = 1e-9;
+// A cosine may leave [-1, 1] by this much and still mean "fully stretched".
+constexpr double kStretch = 1e-12;
+
+double wrapped(double angle) {
+  const double turned = std::remainder(angle, 2 * kPi);
+  return turned <= -kPi ? kPi : turned;
+}
+
+/// Two wrists that carry R_ce = Rz(q4) Ry(q5) Rz(q6); one when it is singular.
+void add_wrists(const Eigen::Matrix3d& R_ce, double q4_singular, Vector6d q, std::vector<Vector6d>& out) {
+  const double sine = std::hypot(R_ce(0, 2), R_ce(1, 2));
+  const bool singular = sine < kSingular;
+  const double q4_first = singular ? q4_singular : std::atan2(R_ce(1, 2), R_ce(0, 2));
+  for (int flip = 0; flip < (singular ? 1 : 2); ++flip) {
+    q[3] = q4_first + flip * kPi;
+    const Eigen::Matrix3d M = Eigen::AngleAxisd(-q[3], Eigen::Vector3d::UnitZ()) * R_ce;
+    q[4] = std::atan2(M(0, 2), M(2, 2));
+    q[5] = std::atan2(M(1, 0), M(1, 1));
+    out.push_back(q);
+  }
+}
+
+/// Closed form of Brandstoetter, Angerer, Hofbaur 2014: shoulder x elbow x wrist.
+std::vector<Vector6d> opw_branches(const OpwParameters& opw, const Pose& X_OE, double q4_singular) {
+  std::vector<Vector6d> out;
+  const Eigen::Vector3d p_wrist = X_OE.translation() - opw.c4 * X_OE.linear().col(2);
+  const double reach_squared = p_wrist.head<2>().squaredNorm() - opw.b * opw.b;
+  if (reach_squared < 0) return out;
+  const double k = std::hypot(opw.a2, opw.c3), psi = std::atan2(opw.a2, opw.c3);
+  for (const double front : {1.0, -1.0}) {
+    const double x_wrist = front * std::sqrt(reach_squared);
+    const double q1 = std::atan2(p_wrist.y(), p_wrist.x()) - std::atan2(opw.b, x_wrist);
+    const double x = x_wrist - opw.a1, z = p_wrist.z() - opw.c1;
+    const double cosine = (x * x + z * z - opw.c2 * opw.c2 - k * k) / (2 * opw.c2 * k);
+    if (std::abs(cosine) > 1 + kStretch) continue;
+    const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
+    for (const double elbow : {1.0, -1.0}) {
+      if (elbow < 0 && sine == 0) continue;
+      const double g = std::atan2(elbow * sine, cosine);  // q3 + psi
+      Vector6d q = Vector6d::Zero();
+      q[0] = q1;
+      q[1] = std::atan2(x, z) - std::atan2(k * std::sin(g), opw.c2 + k * std::cos(g));
+      q[2] = g - psi;
+      const Eigen::Matrix3d R_Oc =
+          (Eigen::AngleAxisd(q[0], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(q[1] + q[2], Eigen::Vector3d::UnitY()))
+              .toRotationMatrix();
+      add_wrists(R_Oc.transpose() * X_OE.linear(), q4_singular, q, out);
+    }
+  }
+  return out;
+}
+
+std::vector<Vector6d> branches(const Arm& arm, const Pose& X_RF, double q4_near) {
+  const OpwParameters& opw = arm.opw();
+  const Pose X_OE = opw.X_RO.inverse() * X_RF * opw.X_EF.inverse();
+  std::vector<Vector6d> found = opw_branches(opw, X_OE, opw.sign[3] * q4_near - opw.offset[3]);
+  for (Vector6d& q : found) {
+    q = from_opw(opw, q);
+    for (int i = 0; i < 6; ++i) q[i] = wrapped(q[i]);
+  }
+  return found;
+}
+
+/// Adds every whole turn of joint i that the limits allow, for all joints from i on.
+void add_turns(const Arm& arm, const Vector6d& q, int i, std::vector<Vector6d>& out) {
+  if (i == 6) {
+    out.push_back(q);
+    return;
+  }
+  const JointLimits& limits = arm.limits()[static_cast<std::size_t>(i)];
+  for (int turn = -3; turn <= 3; ++turn) {
+    Vector6d turned = q;
+    turned[i] += turn * 2 * kPi;
+    if (turned[i] >= limits.lower && turned[i] <= limits.upper) add_turns(arm, turned, i + 1, out);
+  }
+}
+
+}  // namespace
+
+std::vector<Vector6d> all_branches(const Arm& arm, const Pose& X_RF) { return branches(arm, X_RF, 0); }
+
+std::vector<Vector6d> inverse_kinematics(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  std::vector<Vector6d> solutions;
+  for (const Vector6d& q : branches(arm, X_RF, q_near[3])) add_turns(arm, q, 0, solutions);
+  const auto motion = [&](const Vector6d& q) { return (q - q_near).cwiseAbs().maxCoeff(); };
+  std::stable_sort(solutions.begin(), solutions.end(),
+                   [&](const Vector6d& a, const Vector6d& b) { return motion(a) < motion(b); });
+  return solutions;
+}
+
+}  // namespace binpick
