@@ -1,0 +1,36 @@
+#include "sim/depth_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.hpp"
+#include "core/hash.hpp"
+
+namespace binpick {
+
+Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const RenderScene& scene, std::size_t parts,
+                      const PinholeCamera& camera, const Pose& X_WC_true, const Pose& X_WC_believed, Seed camera_seed,
+                      Seed frame_seed) {
+  BP_CHECK(is_rigid(X_WC_true) && is_rigid(X_WC_believed));
+  // Things nearer than the sensor's range still hide what is behind them: near lies well before z_min.
+  const double near = std::max(0.1 * sensor.z_min(), 0.005);
+  const double far = 1.2 * sensor.z_max();
+  Capture capture;
+  capture.exact = renderer.render(scene, camera, X_WC_true, near, far);
+  capture.visibility = part_visibility(renderer, scene, capture.exact, camera, X_WC_true, parts);
+  capture.frame.camera = camera;
+  capture.frame.X_WC = X_WC_believed;
+  capture.frame.noise = sensor.stated_noise();
+  capture.frame.depth = sensor.capture(capture.exact, camera, camera_seed, frame_seed);
+  return capture;
+}
+
+std::uint64_t frame_hash(const DepthFrame& frame) {
+  const PinholeCamera& c = frame.camera;
+  Hasher hasher;
+  hasher.add(std::uint64_t(c.width)).add(std::uint64_t(c.height)).add(c.fx).add(c.fy).add(c.cx).add(c.cy);
+  for (const float z : frame.depth) hasher.add(std::isnan(z) ? -1.0 : static_cast<double>(z));
+  return hasher.value();
+}
+
+}  // namespace binpick

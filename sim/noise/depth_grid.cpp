@@ -1,0 +1,16 @@
+#include "sim/noise/depth_grid.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace binpick {
+
+float on_grid(double z, const DepthGrid& grid) {
+  const double rounded = grid.unit > 0 ? std::round(z / grid.unit) * grid.unit : z;
+  const auto delivered = static_cast<float>(rounded);
+  // Compared after rounding, so that no delivered value lies outside. NaN fails both tests.
+  const bool inside = delivered >= grid.z_min && delivered <= grid.z_max;
+  return inside ? delivered : std::numeric_limits<float>::quiet_NaN();
+}
+
+}  // namespace binpick

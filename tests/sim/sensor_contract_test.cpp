@@ -1,0 +1,190 @@
+// What every sensor model promises, whatever it models. A new registry line is met by these tests at once.
+#include <set>
+
+#include "core/error.hpp"
+#include "core/primitive.hpp"
+#include "sensor_fixtures.hpp"
+#include "sim/depth_sensor.hpp"
+
+namespace binpick {
+namespace {
+
+using test::same_bits;
+
+struct Variant {
+  std::string type, preset;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const std::string& name : sensor_names()) all.push_back({name, ""});
+  for (const char* preset : {"d435_848", "d435_848_out_of_box", "d415_1280", "d415_1280_out_of_box"})
+    all.push_back({"disparity", preset});
+  for (const char* preset : {"d435_848", "kinect_v1"}) all.push_back({"gauss_z", preset});
+  return all;
+}
+
+Pose at(double x, double y, double z) {
+  Pose X = Pose::Identity();
+  X.translation() = Eigen::Vector3d(x, y, z);
+  return X;
+}
+
+RenderItem item(TriangleMesh mesh, const Pose& X_WO, std::int32_t id) {
+  return {std::make_shared<const TriangleMesh>(std::move(mesh)), X_WO, id, 0.6f};
+}
+
+class SensorContract : public testing::TestWithParam<Variant> {
+ protected:
+  SensorContract() : sensor_(make()), camera_(test::cropped(sensor_->default_camera(), 320, 240)) {
+    // A floor at 0.9 m with a ball, a plate, something too near and something too far; the floor ends inside the image.
+    RenderScene scene;
+    scene.items = {item(mesh_of(Primitive::box({0.35, 1, 0.01})), at(-0.02, 0, 0.905), kIdTable),
+                   item(mesh_of(Primitive::sphere(0.05), 64), at(0.03, 0.02, 0.8), 0),
+                   item(mesh_of(Primitive::box({0.1, 0.06, 0.016})), at(-0.07, -0.05, 0.892), 1),
+                   item(mesh_of(Primitive::sphere(0.01)), at(-0.01, 0.02, 0.1), 2),
+                   item(mesh_of(Primitive::box({1, 1, 0.01})), at(0.5, 0, 9.5), kIdBin)};
+    exact_ = make_osmesa_renderer()->render(scene, camera_, Pose::Identity(), 0.02, 12);
+  }
+  std::unique_ptr<SensorModel> make(const std::string& more = "") const {
+    const std::string preset = GetParam().preset.empty() ? "" : "preset: " + GetParam().preset + "\n";
+    return test::sensor(GetParam().type, preset + more);
+  }
+  Image<float> shoot(std::uint64_t camera = 1, std::uint64_t frame = 2) const {
+    return sensor_->capture(exact_, camera_, Seed{camera}, Seed{frame});
+  }
+
+  std::unique_ptr<SensorModel> sensor_;
+  PinholeCamera camera_;
+  ExactFrame exact_;
+};
+
+TEST_P(SensorContract, SameSeedsGiveTheSameBits) {
+  const Image<float> once = shoot(), again = shoot();
+  EXPECT_TRUE(same_bits(once, again));
+  EXPECT_TRUE(same_bits(once, make()->capture(exact_, camera_, Seed{1}, Seed{2})));
+}
+
+TEST_P(SensorContract, OtherFrameSeedGivesAnotherImage) {
+  EXPECT_EQ(same_bits(shoot(1, 2), shoot(1, 3)), GetParam().type == "ideal");
+}
+
+TEST_P(SensorContract, NothingOutsideTheRangeAndNothingFromNothing) {
+  const Image<float> depth = shoot();
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (std::isnan(depth[i])) continue;
+    ++valid;
+    ASSERT_GE(depth[i], sensor_->z_min());
+    ASSERT_LE(depth[i], sensor_->z_max());
+  }
+  EXPECT_GT(valid, depth.size() / 3);
+  const Image<float> empty = sensor_->capture(test::nothing(camera_), camera_, Seed{1}, Seed{2});
+  EXPECT_EQ(test::fill(empty), 0);
+}
+
+TEST_P(SensorContract, DepthIsNearTheTruth) {
+  const Image<float> depth = shoot();
+  std::size_t valid = 0, near = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (exact_.ids[i] != kIdTable || std::isnan(depth[i])) continue;
+    ++valid;
+    near += std::abs(depth[i] - exact_.depth[i]) < 0.05;  // an out-of-box bias is 15 mm here (1 sigma)
+  }
+  ASSERT_GT(valid, depth.size() / 4);
+  EXPECT_GT(static_cast<double>(near), 0.97 * static_cast<double>(valid));  // outlines may report their neighbour
+}
+
+TEST_P(SensorContract, DepthLiesOnItsGrid) {
+  if (GetParam().type == "ideal") GTEST_SKIP() << "has no grid";
+  const Image<float> depth = make("depth_unit: 1 mm\n")->capture(exact_, camera_, Seed{1}, Seed{2});
+  for (const float z : depth) {
+    if (!std::isnan(z)) {
+      ASSERT_FLOAT_EQ(z, static_cast<float>(std::round(z * 1000) / 1000));
+    }
+  }
+}
+
+// If a value depended on what was drawn for other pixels, emptying the lower rows would change the upper ones.
+TEST_P(SensorContract, PixelsDoNotDependOnTheOthersInTheirStreams) {
+  const Image<float> whole = shoot();
+  ExactFrame cut = exact_;
+  const ExactFrame empty = test::nothing(camera_);
+  const std::size_t from = exact_.depth.size() * 3 / 4;
+  std::copy(empty.depth.begin() + from, empty.depth.end(), cut.depth.begin() + from);
+  std::copy(empty.ids.begin() + from, empty.ids.end(), cut.ids.begin() + from);
+  std::copy(empty.normals_C.begin() + from, empty.normals_C.end(), cut.normals_C.begin() + from);
+  const Image<float> part = sensor_->capture(cut, camera_, Seed{1}, Seed{2});
+  const std::size_t untouched = from - 8 * static_cast<std::size_t>(camera_.width);  // windows and jitter reach less
+  for (std::size_t i = 0; i < untouched; ++i)
+    ASSERT_TRUE(whole[i] == part[i] || (std::isnan(whole[i]) && std::isnan(part[i]))) << i;
+}
+
+TEST_P(SensorContract, WrittenConfigurationIsTheSameSensor) {
+  const auto sensor = make(GetParam().type == "ideal" ? "z_max: 3\n" : "z_max: 3\ndepth_unit: 0.5 mm\n");
+  const std::string text = write_yaml([&](ConfigVisitor& v) { sensor->visit(v); });
+  const auto back = test::sensor(GetParam().type, text);
+  EXPECT_TRUE(
+      same_bits(sensor->capture(exact_, camera_, Seed{1}, Seed{2}), back->capture(exact_, camera_, Seed{1}, Seed{2})));
+  EXPECT_EQ(back->z_max(), 3);
+  EXPECT_EQ(back->stated_noise().quadratic, sensor->stated_noise().quadratic);
+}
+
+TEST_P(SensorContract, BadValuesAreSpecErrors) {
+  EXPECT_THROW(make("z_min: 3\nz_max: 2\n"), SpecError);
+  EXPECT_THROW(make("z_mim: 0.2\n"), SpecError);
+  EXPECT_THROW(make("z_min: -1\n"), SpecError);
+  EXPECT_NO_THROW(sensor_->default_camera().validate());
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, SensorContract, testing::ValuesIn(variants()), [](const auto& variant) {
+  return variant.param.type + (variant.param.preset.empty() ? "" : "_" + variant.param.preset);
+});
+
+TEST(SensorRegistry, UnknownNamesSayWhatIsNear) {
+  try {
+    make_sensor("dispartiy");
+    FAIL();
+  } catch (const SpecError& e) {
+    EXPECT_NE(std::string(e.what()).find("'disparity'"), std::string::npos) << e.what();
+  }
+  EXPECT_THROW(test::sensor("disparity", "preset: d436"), SpecError);
+}
+
+TEST(SensorPresets, LaterKeysOverrideThePresetWhereverItStands) {
+  const auto first = test::sensor("disparity", "preset: d415_1280\nz_min: 0.3\n");
+  const auto last = test::sensor("disparity", "z_min: 0.3\npreset: d415_1280\n");
+  EXPECT_EQ(first->z_min(), 0.3);
+  EXPECT_EQ(last->z_min(), 0.3);
+  EXPECT_EQ(first->default_camera().width, 1280);
+}
+
+// ---- depth_sensor
+// ------------------------------------------------------------------------------------------------------
+
+TEST(DepthSensor, FrameSaysWhatIsBelievedAndTruthStaysApart) {
+  const auto renderer = make_osmesa_renderer();
+  const auto sensor = test::sensor("ideal", "");
+  const PinholeCamera camera = test::cropped(PinholeCamera{}, 200, 120);
+  const Pose X_WC = at(0, 0, 0.7) * pose_from_xyz_rpy({0, 0, 0}, {M_PI, 0, 0});
+  const Pose X_WC_believed = at(0.002, 0, 0) * X_WC;
+  RenderScene scene;
+  scene.items = {item(mesh_of(Primitive::box({0.1, 0.06, 0.016})), at(0, 0, 0.008), 0)};
+  const Capture capture = capture_depth(*renderer, *sensor, scene, 2, camera, X_WC, X_WC_believed, Seed{1}, Seed{2});
+  EXPECT_TRUE(capture.frame.X_WC.isApprox(X_WC_believed, 0));
+  EXPECT_NEAR(capture.frame.depth(100, 60), 0.684, 1e-6);
+  ASSERT_EQ(capture.visibility.size(), 2u);
+  EXPECT_EQ(capture.visibility[0].fraction(), 1);
+  EXPECT_EQ(capture.visibility[1].fraction(), 0);
+  const std::uint64_t hash = frame_hash(capture.frame);
+  DepthFrame other = capture.frame;
+  EXPECT_EQ(frame_hash(other), hash);
+  other.depth(100, 60) = std::nextafter(other.depth(100, 60), 1.0f);
+  EXPECT_NE(frame_hash(other), hash);
+  other = capture.frame;
+  other.camera.fx += 1;
+  EXPECT_NE(frame_hash(other), hash);
+}
+
+}  // namespace
+}  // namespace binpick
