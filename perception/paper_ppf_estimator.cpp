@@ -14,6 +14,7 @@
 
 #include "core/check.hpp"
 #include "core/error.hpp"
+#include "perception/edge_points.hpp"
 #include "perception/hypothesis_check.hpp"
 #include "perception/icp.hpp"
 #include "perception/model_cloud.hpp"
@@ -34,6 +35,7 @@ struct SearchConfig {
   int finished = 30;           // of those, refined finely with the silhouette
   double cluster_distance = 0.1;   // of the diameter
   double cluster_angle = 0.4;      // rad
+  bool edges = true;               // vote with oriented edge points, too
 
   void visit(ConfigVisitor& v) {
     v.field("clusters", clusters, "hypotheses of a part that are verified");
@@ -41,6 +43,7 @@ struct SearchConfig {
     v.field("finished", finished, "of those, refined finely");
     v.field("cluster_distance", cluster_distance, Unit::kNone, "poses nearer than this are one, of the diameter");
     v.field("cluster_angle", cluster_angle, Unit::kAngle, "and turned by less than this");
+    v.field("edges", edges, "vote with pairs of oriented edge points, beside the paper's surface points");
   }
   void validate() const {
     if (clusters < 1 || refined < 1 || finished < 1)
@@ -56,7 +59,7 @@ struct PreparedPart {
   double thinnest = 0;
   Symmetry symmetry;
   Eigen::Vector3d center_P = Eigen::Vector3d::Zero();
-  PairTable table;
+  PairTable table, edge_table;
   SurfaceModel surface;
 };
 
@@ -93,6 +96,7 @@ class PaperPpfEstimator : public PoseEstimator {
   EstimateResult estimate(const SceneView& view, Seed seed) const override;
 
  private:
+  std::vector<PoseHypothesis> hypotheses(const PreparedPart& part, const PointCloud& points_C, const PairTable& table) const;
   std::vector<PoseHypothesis> verified(const Scene& scene, const PreparedPart& part, std::vector<PoseHypothesis> poses) const;
   std::vector<Candidate> refined(const Scene& scene, std::size_t index, const std::vector<PoseHypothesis>& poses) const;
   std::vector<PoseHypothesis> coarse(const Scene& scene, const PreparedPart& part,
@@ -121,17 +125,27 @@ void PaperPpfEstimator::prepare(std::span<const Part> parts) {
     p.center_P = bounding_box(part.mesh_P).center();
     p.thinnest = bounding_box(part.mesh_P).sizes().minCoeff();
     const double voxel = preprocess_.voxel * part.diameter;
-    const PointCloud pairs_P = voxel_grid(model_cloud(part.mesh_P, part.diameter, model_), voxel);
-    p.table = PairTable(pairs_P, part.symmetry, voting_.quantiser(part.diameter), 0.8 * voxel);
+    const PointCloud visible_P = model_cloud(part.mesh_P, part.diameter, model_);
+    const PairQuantiser quantiser = voting_.quantiser(part.diameter);
+    p.table = PairTable(voxel_grid(visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
+    p.edge_table = PairTable(model_edges(part.mesh_P, visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
     p.surface = SurfaceModel(part.mesh_P, 0.02 * part.diameter, 1.2 * icp_.gate * part.diameter);
     parts_.push_back(std::move(p));
   }
 }
 
+/// Votes of one kind of points, clustered; the best of them (paper 4.1).
+std::vector<PoseHypothesis> PaperPpfEstimator::hypotheses(const PreparedPart& part, const PointCloud& points_C,
+                                                          const PairTable& table) const {
+  std::vector<PoseHypothesis> poses =
+      cluster_poses(vote(points_C, table, part.diameter, voting_), part.symmetry, same(part, 1));
+  if (poses.size() > static_cast<std::size_t>(search_.clusters)) poses.resize(static_cast<std::size_t>(search_.clusters));
+  return poses;
+}
+
 /// The hypotheses that the scene bears out best, checked on the voxel grid and along the rays (paper 4.2).
 std::vector<PoseHypothesis> PaperPpfEstimator::verified(const Scene& scene, const PreparedPart& part,
                                                         std::vector<PoseHypothesis> poses) const {
-  if (poses.size() > static_cast<std::size_t>(search_.clusters)) poses.resize(static_cast<std::size_t>(search_.clusters));
   const VoxelSet voxels(scene, check_.voxel * part.diameter);
   std::vector<PoseHypothesis> kept;
   for (PoseHypothesis& pose : poses) {
@@ -210,9 +224,11 @@ EstimateResult PaperPpfEstimator::estimate(const SceneView& view, Seed) const {
     models.push_back(&part.surface);
     stage.lap();
     const PointCloud points_C = voxel_grid(scene, preprocess_.voxel * part.diameter);
+    const PointCloud edges_C = scene_edges(scene, preprocess_.voxel * part.diameter);
     result.wall.preprocess += stage.lap();
-    std::vector<PoseHypothesis> poses =
-        cluster_poses(vote(points_C, part.table, part.diameter, voting_), part.symmetry, same(part, 1));
+    std::vector<PoseHypothesis> poses = hypotheses(part, points_C, part.table);
+    if (search_.edges)
+      for (PoseHypothesis& pose : hypotheses(part, edges_C, part.edge_table)) poses.push_back(std::move(pose));
     result.wall.voting += stage.lap();
     poses = verified(scene, part, std::move(poses));
     result.wall.verification += stage.lap();
