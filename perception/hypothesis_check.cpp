@@ -114,7 +114,7 @@ CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose
   return out;
 }
 
-bool inside_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
+bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
   if (!scene.bin) return true;
   const Eigen::Isometry3f X_BP = (scene.X_CB.inverse() * X_CP).cast<float>();
   const float slack = static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));

@@ -60,6 +60,6 @@ double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose
 CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
 
 /// True when no point of the pose lies below the floor or behind a wall (always true without a bin).
-bool inside_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
+bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
 
 }  // namespace binpick

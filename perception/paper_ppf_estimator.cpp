@@ -165,7 +165,7 @@ std::vector<PoseHypothesis> PaperPpfEstimator::coarse(const Scene& scene, const 
   const std::size_t count = std::min(poses.size(), static_cast<std::size_t>(search_.refined));
   for (std::size_t i = 0; i < count; ++i) {
     const IcpResult fit = refine_pose(scene, part.surface, poses[i].X_CP, icp_, IcpStage::kCoarse);
-    if (fit.points < 6 || !inside_bin(scene, part.surface, fit.X_CP, check_)) continue;
+    if (fit.points < 6 || !fits_bin(scene, part.surface, fit.X_CP, check_)) continue;
     out.push_back({fit.X_CP, check_rays(scene, part.surface, fit.X_CP, check_).score()});
   }
   std::stable_sort(out.begin(), out.end(),
@@ -190,7 +190,7 @@ std::vector<Candidate> PaperPpfEstimator::refined(const Scene& scene, std::size_
   for (const PoseHypothesis& pose : distinct) {
     Candidate c{index, refine_pose(scene, part.surface, pose.X_CP, icp_, IcpStage::kFine), {}};
     if (c.fit.points < 6 || c.fit.mean_deviation > accepted_deviation(scene, c.fit.X_CP.translation().z(), icp_)) continue;
-    if (!inside_bin(scene, part.surface, c.fit.X_CP, check_)) continue;
+    if (!fits_bin(scene, part.surface, c.fit.X_CP, check_)) continue;
     c.check = check_view(scene, part.surface, c.fit.X_CP, check_);
     if (accepted(c.check, accept_)) out.push_back(std::move(c));
   }

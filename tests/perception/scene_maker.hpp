@@ -284,10 +284,12 @@ inline Image<float> stereo_noise(const Image<float>& exact, const PinholeCamera&
   return out;
 }
 
-inline HeapScene make_scene(const Part& part, const HeapOptions& options, Seed seed, const Pose& X_WC) {
+/// A frame of a given heap.
+inline HeapScene photograph(const Part& part, std::vector<Instance> heap, const HeapOptions& options, Seed seed,
+                            const Pose& X_WC) {
   HeapScene scene;
   scene.X_WC = X_WC;
-  scene.instances = make_heap(part, options, seed);
+  scene.instances = std::move(heap);
   BinSpec bin;
   bin.inner_size = options.bin_size;
   const DepthIds drawn = draw_heap(part, scene.instances, scene.frame.camera, X_WC.inverse(), bin);
@@ -304,6 +306,10 @@ inline HeapScene make_scene(const Part& part, const HeapOptions& options, Seed s
   scene.view.bin = bin;
   scene.view.X_CB = X_WC.inverse();
   return scene;
+}
+
+inline HeapScene make_scene(const Part& part, const HeapOptions& options, Seed seed, const Pose& X_WC) {
+  return photograph(part, make_heap(part, options, seed), options, seed, X_WC);
 }
 
 // ---------------------------------------------------------------- right or wrong
