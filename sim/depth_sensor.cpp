@@ -13,7 +13,7 @@ Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const 
                       Seed frame_seed) {
   BP_CHECK(is_rigid(X_WC_true) && is_rigid(X_WC_believed));
   // Things nearer than the sensor's range still hide what is behind them: near lies well before z_min.
-  const double near = std::max(0.1 * sensor.z_min(), 0.005);
+  const double near = std::min(std::max(0.1 * sensor.z_min(), 0.02), sensor.z_min());
   const double far = 1.2 * sensor.z_max();
   Capture capture;
   capture.exact = renderer.render(scene, camera, X_WC_true, near, far);

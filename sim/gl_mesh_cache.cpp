@@ -23,10 +23,6 @@ std::vector<float> face_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-GlMeshCache::~GlMeshCache() {
-  for (auto& [key, mesh] : meshes_) free(mesh);
-}
-
 const GlMesh& GlMeshCache::get(const std::shared_ptr<const TriangleMesh>& mesh_O) {
   BP_CHECK(mesh_O != nullptr);
   GlMesh& mesh = meshes_[mesh_O.get()];

@@ -21,7 +21,6 @@ struct GlMesh {
 class GlMeshCache {
  public:
   explicit GlMeshCache(GlContext& context) : context_(context) {}
-  ~GlMeshCache();
   GlMeshCache(const GlMeshCache&) = delete;
   GlMeshCache& operator=(const GlMeshCache&) = delete;
 

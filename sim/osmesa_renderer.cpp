@@ -50,11 +50,11 @@ void main() {
 
 constexpr int kTargets = 3;
 
-// The framebuffer: grows to the largest image asked for; smaller images use its corner.
+// The framebuffer: grows to the largest image asked for; smaller images use its corner. It dies with the context, so
+// that a renderer may be destroyed by another thread than its own.
 class FrameTarget {
  public:
   explicit FrameTarget(GlContext& context) : context_(context) {}
-  ~FrameTarget() { free(); }
   FrameTarget(const FrameTarget&) = delete;
   FrameTarget& operator=(const FrameTarget&) = delete;
 
@@ -109,7 +109,6 @@ class OsmesaRenderer : public DepthRenderer {
     const auto at = [&](const char* name) { return gl.GetUniformLocation(program_, name); };
     at_ = {at("X_CO"), at("R_CO"), at("scale"), at("shift"), at("depth"), at("normals_O"), at("id"), at("albedo")};
   }
-  ~OsmesaRenderer() override { context_.use().DeleteProgram(program_); }
 
   ExactFrame render(const RenderScene& scene, const PinholeCamera& camera, const Pose& X_WC, double near,
                     double far) override {
@@ -198,7 +197,7 @@ class OsmesaRenderer : public DepthRenderer {
     return frame;
   }
 
-  mutable GlContext context_;
+  mutable GlContext context_;  // first in, last out: the others live inside it
   GlMeshCache meshes_;
   FrameTarget target_;
   GLuint program_;

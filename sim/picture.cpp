@@ -12,7 +12,7 @@ constexpr int kOversampling = 2;        // samples a side of one pixel
 constexpr int kShadowSide = 1536;       // px, of the shadow map
 constexpr double kShadowBias = 2e-3;    // m
 constexpr double kCornerReach = 0.025;  // m: how far corners darken
-const Eigen::Vector3d kKeyLight_W = Eigen::Vector3d(0.45, -0.35, 1.0).normalized();
+const Eigen::Vector3d kKeyLight_W = Eigen::Vector3d(0.28, -0.24, 1.0).normalized();
 const Eigen::Vector3d kFillLight_W = Eigen::Vector3d(-0.7, 0.6, 0.5).normalized();
 
 // A colour as a designer writes it (sRGB, 0 .. 255) in linear light.
@@ -88,17 +88,17 @@ class ShadowMap {
     X_LW_ = X_WL_.inverse();
   }
 
-  /// 0 in shadow .. 1 in light, averaged over 3 x 3 cells of the map.
+  /// 0 in shadow .. 1 in light, averaged over 5 x 5 places of the map: soft borders.
   float light_at(const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W) const {
     if (depth_.empty()) return 1;
     const Eigen::Vector3d p_L = X_LW_ * (p_W + kShadowBias * n_W);
     const Eigen::Vector2d at = camera_.project(p_L);
     const int u = static_cast<int>(std::lround(at.x())), v = static_cast<int>(std::lround(at.y()));
     int lit = 0;
-    for (int dv = -1; dv <= 1; ++dv)
-      for (int du = -1; du <= 1; ++du)
+    for (int dv = -4; dv <= 4; dv += 2)
+      for (int du = -4; du <= 4; du += 2)
         lit += !depth_.contains(u + du, v + dv) || !(depth_(u + du, v + dv) < p_L.z() - kShadowBias);
-    return static_cast<float>(lit) / 9;
+    return static_cast<float>(lit) / 25;
   }
 
  private:
@@ -160,7 +160,7 @@ Colour shade(std::int32_t id, const Eigen::Vector3d& n_W, const Eigen::Vector3d&
   const float key = static_cast<float>(std::max(0.0, n_W.dot(kKeyLight_W))) * lit;
   const float fill = static_cast<float>(std::max(0.0, n_W.dot(kFillLight_W)));
   const float sky = 0.5f + 0.5f * static_cast<float>(n_W.z());
-  Colour out = base * (0.72f * key + (0.16f * fill + 0.14f + 0.22f * sky) * open);
+  Colour out = base * (0.58f * key + (0.16f * fill + 0.20f + 0.26f * sky) * open);
   if (is_part(id) || id == kIdTool || id == kIdArm) {
     const double half = std::max(0.0, n_W.dot((kKeyLight_W + to_eye_W).normalized()));
     out += Colour::Constant(0.22f * lit * static_cast<float>(std::pow(half, 40)));
