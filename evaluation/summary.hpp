@@ -31,19 +31,19 @@ struct StageSummary {
 struct CampaignSummary {
   std::string scenario;
   std::size_t trials = 0;
-  Rate cleared;           ///< parts at rest in the tray / dropped
-  Rate picks;             ///< succeeded / attempted: every pick record but BinEmpty, whatever ended it
-  Rate recall;            ///< found / visible >= 0.5, over every look
-  Rate precision;         ///< right / counted
-  Rate recall_first_look; ///< the full heap only
+  Rate cleared;                   ///< parts at rest in the tray / dropped
+  Rate picks;                     ///< succeeded / attempted: every pick record but BinEmpty, whatever ended it
+  Rate recall;                    ///< found / visible >= 0.5, over every look
+  Rate precision;                 ///< right / counted
+  Rate recall_first_look;         ///< the full heap only
   Rate recall_tight, recall_2mm;  ///< at 0.05 diameter and at 2 mm
   std::map<std::string, StageSummary> stages;  ///< preprocess, voting, verification, icp, estimate_total, plan (wall)
-  std::size_t measured = 0;                            ///< right estimates behind the errors below
+  std::size_t measured = 0;                    ///< right estimates behind the errors below
   double translation_median = 0, translation_p95 = 0;  ///< m
   double rotation_median = 0, rotation_p95 = 0;        ///< rad
   Eigen::Vector3d mean_abs_xyz = Eigen::Vector3d::Zero(), mean_abs_rpy = Eigen::Vector3d::Zero();
-  double cycle_median = 0;             ///< s simulated, succeeded picks
-  double motion_mean = 0;              ///< s simulated, succeeded picks (paper's "moving robot")
+  double cycle_median = 0;  ///< s simulated, succeeded picks
+  double motion_mean = 0;   ///< s simulated, succeeded picks (paper's "moving robot")
   double simulated_picks_per_hour = 0, throughput_per_hour = 0;  ///< 0: unknown
   std::map<std::string, std::size_t> outcomes;
   std::map<std::string, std::vector<std::uint64_t>> outcome_seeds;  ///< the failure list: which seeds to replay

@@ -68,7 +68,7 @@ std::string summary_json(const CampaignSummary& s) {
   json["outcome_seeds"] = Json::object();
   for (const auto& [outcome, seeds] : s.outcome_seeds) json["outcome_seeds"][outcome] = seeds;
   json["records_hash"] = s.records_hash;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace binpick
