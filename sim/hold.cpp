@@ -246,6 +246,8 @@ void CupHold::reset_lips() {
   }
 }
 
+void CupHold::set_config(const HoldConfig& config) { impl_->config = config; }
+
 bool CupHold::holds_any() const {
   return std::any_of(impl_->states.begin(), impl_->states.end(), [](const CupState& s) { return s.part.has_value(); });
 }

@@ -61,6 +61,7 @@ class CupHold {
   /// The lips go to where the tool is, fully out (after the tool was teleported).
   void reset_lips();
   bool holds_any() const;
+  void set_config(const HoldConfig& config);  ///< for holds that begin later; the lips' mass stays
 
   /// One step of the world with the cups at work.
   void step(double dt);

@@ -1,5 +1,11 @@
-// Executes a plan in the physics world: steps world and arm together, asks the gripper whether the TRUE contact seals, holds
-// the part by springs whose reaction is held against the limits x p(t), carries it to the tray and lets go.
+// Executes a plan in the physics world: steps world and arm together, asks the gripper whether the TRUE contact seals,
+// holds the part by couplings whose reaction is held against the limits x p(t), carries it to the tray and lets go.
+//
+// Outcomes: PathBlocked (arm or tool pressed harder than `protective_force` or reached into bin, tray or table),
+// ProtectiveStop (a plunger at its end pressed as hard), NoSeal, PulledOff and Slipped (lost during the lift: pull or
+// peel; shear or twist), DroppedInBin and LostInTransit (lost later: back in the bin; anywhere else), DoublePick
+// (another part came out with it), WrongPlace (released, but not at rest in the tray), Succeeded. After every outcome
+// the arm stands at the end of plan.back, the cups are free and the heap is at rest.
 #pragma once
 
 #include <functional>
@@ -14,12 +20,12 @@
 namespace binpick {
 
 struct ExecutionConfig {
-  double step = 1.0 / 500;            ///< s, fixed while the arm moves
-  double protective_force = 80;       ///< N, arm or tool against anything but the lips: PathBlocked beyond
-  double break_time = 0.010;          ///< s, limits must be exceeded this long
-  double vacuum_share = 0.8;          ///< lift starts at this share of the full vacuum
-  double vacuum_timeout = 0.5;        ///< s
-  double settle_time = 1.0;           ///< s after release, until the part must rest in the tray
+  double step = 1.0 / 500;       ///< s, fixed while the arm moves
+  double protective_force = 80;  ///< N, arm or tool against anything but the lips: PathBlocked beyond
+  double break_time = 0.010;     ///< s, limits must be exceeded this long
+  double vacuum_share = 0.8;     ///< lift starts at this share of the full vacuum
+  double vacuum_timeout = 0.5;   ///< s
+  double settle_time = 1.0;      ///< s after release, until the part must rest in the tray
   void visit(ConfigVisitor& v);
   void validate() const;
 };
@@ -27,17 +33,17 @@ struct ExecutionConfig {
 struct ExecutionResult {
   PickOutcome outcome = PickOutcome::kSucceeded;
   std::string reason;
-  double motion_time = 0;              ///< s simulated
-  double vacuum_time = 0;              ///< s simulated
-  std::optional<std::size_t> lifted;   ///< heap index
-  std::optional<double> place_error;   ///< m
-  std::optional<double> place_rotation;///< rad
-  double swing = 0;                    ///< rad
-  double peak_force = 0;               ///< N
-  int neighbours_moved = 0;
+  double motion_time = 0;                ///< s simulated, waiting for rest included
+  double vacuum_time = 0;                ///< s simulated, contact, build-up and venting
+  std::optional<std::size_t> lifted;     ///< heap index of the part that was held
+  std::optional<double> place_error;     ///< m, horizontal distance of the part's box centre from the plan's, at rest
+  std::optional<double> place_rotation;  ///< rad, from the plan's orientation to the nearest equivalent one, at rest
+  double swing = 0;                      ///< rad, largest turn of the held part against the tool
+  double peak_force = 0;                 ///< N, largest on one cup or on arm and tool
+  int neighbours_moved = 0;              ///< other parts in the bin whose box centre moved more than 5 mm
 };
 
-/// Called once when the cups hold the part before the lift, and once at release: for pictures.
+/// Called once when the cups hold the part before the lift ("held"), and once at release ("released"): for pictures.
 using ExecutionHook = std::function<void(const char* moment, const CellWorld& cell)>;
 
 ExecutionResult execute_pick(CellWorld& cell_world, const PickPlan& plan, const ExecutionConfig& config,
