@@ -20,10 +20,10 @@ std::string label(double x, double y, const std::string& anchor, const std::stri
          "\" font-size=\"11\" fill=\"var(--soft)\">" + text::html(words) + "</text>";
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below x.
+/// The smallest round number that is not below x.
 double round_up(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)));
-  for (const double step : {1.0, 2.0, 5.0}) {
+  for (const double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
     if (step * power >= x) return step * power;
   }
   return 10 * power;
@@ -50,7 +50,7 @@ std::string distribution(const std::string& title, const std::string& unit, std:
   std::sort(values.begin(), values.end());
   const double median = quantile(values, 0.5), p95 = quantile(values, 0.95);
   const double end = round_up(std::max(1.2 * p95, 1e-9));
-  const double left = 34, right = 350, top = 12, bottom = 140;
+  const double left = 44, right = 350, top = 12, bottom = 140;
   const auto x = [&](double value) { return left + (right - left) * std::min(value / end, 1.0); };
   const auto y = [&](double share) { return bottom - (bottom - top) * share; };
   std::string svg = "<svg viewBox=\"0 0 360 178\" role=\"img\" aria-label=\"" +
@@ -71,8 +71,11 @@ std::string distribution(const std::string& title, const std::string& unit, std:
   for (const double value : {median, p95}) {
     svg += line(x(value), top, x(value), bottom, "stroke=\"var(--soft)\" stroke-dasharray=\"3 3\"");
   }
-  svg += label(left, bottom + 15, "middle", "0") +
-         label(right, bottom + 15, "end", fixed(end, end < 1 ? 2 : 0) + " " + unit);
+  svg += label(left, bottom + 15, "middle", "0") + label(right, bottom + 15, "end",
+                                                         fixed(end, end < 1    ? 3
+                                                                    : end < 10 ? 1
+                                                                               : 0) +
+                                                             " " + unit);
   svg += label(left, bottom + 31, "start",
                title + ": median " + fixed(median, 2) + ", 95 % " + fixed(p95, 2) + " " + unit + " (" +
                    std::to_string(values.size()) + " poses)");
