@@ -135,9 +135,8 @@ std::string checked_stl(std::string bytes, const std::string& path) {
     throw AssetError(path + ": " + std::to_string(bytes.size()) + " bytes are too few for an STL file");
   }
   const std::uint64_t triangles = claimed_triangles(bytes);
-  check_count(triangles, path);
-  throw AssetError(path + ": claims " + std::to_string(triangles) + " triangles, that is " +
-                   std::to_string(kHeaderSize + kRecordSize * triangles) + " bytes, but has " +
+  throw AssetError(path + ": is no ASCII STL, and as a binary one claims " + std::to_string(triangles) +
+                   " triangles, that is " + std::to_string(kHeaderSize + kRecordSize * triangles) + " bytes, but has " +
                    std::to_string(bytes.size()));
 }
 

@@ -78,7 +78,9 @@ YAML::Node parse_strictly(const std::string& text, const YamlSource& source) {
     check_node(documents[0], source, budget);
     return documents[0];
   } catch (const YAML::Exception& error) {
-    throw SpecError(place(source, error.mark) + ": " + error.msg);
+    std::string message = error.msg;  // may quote what it met, a line end included
+    std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
+    throw SpecError(place(source, error.mark) + ": " + message);
   }
 }
 

@@ -1,11 +1,11 @@
-#include "cad_pieces.hpp"
+#include "tools/cad_pieces.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "cad_dimensions.hpp"
 #include "core/convex_hull.hpp"
 #include "core/primitive.hpp"
+#include "tools/cad_dimensions.hpp"
 
 namespace binpick {
 namespace {
