@@ -26,6 +26,7 @@ void CheckConfig::visit(ConfigVisitor& v) {
   v.field("least_voxel_share", least_voxel_share, Unit::kNone, "least share of visible model points in occupied voxels");
   v.field("tolerance", tolerance, Unit::kLength, "depth agreement of an inlier, at least");
   v.field("tolerance_sigmas", tolerance_sigmas, Unit::kNone, "the same in standard deviations of the sensor");
+  v.field("rough", rough, Unit::kNone, "factor on the tolerance before refinement");
   v.field("normal_tolerance", normal_tolerance, Unit::kAngle, "normal agreement of an inlier");
   v.field("wall_tolerance", wall_tolerance, Unit::kLength, "how far a pose may reach into floor or wall, beside 2 sigma");
   v.field("points", points, "model points tried on a hypothesis");
@@ -36,6 +37,7 @@ void CheckConfig::validate() const {
   if (!(least_voxel_share >= 0 && least_voxel_share <= 1)) throw SpecError("check.least_voxel_share: must lie between 0 and 1");
   if (!(tolerance > 0 && tolerance < 0.1)) throw SpecError("check.tolerance: must lie between 0 and 100 mm");
   if (!(tolerance_sigmas >= 0 && tolerance_sigmas <= 20)) throw SpecError("check.tolerance_sigmas: must lie between 0 and 20");
+  if (!(rough >= 1 && rough <= 10)) throw SpecError("check.rough: must lie between 1 and 10");
   if (!(normal_tolerance > 0 && normal_tolerance <= 3.2)) throw SpecError("check.normal_tolerance: must lie between 0 and pi");
   if (!(wall_tolerance >= 0 && wall_tolerance < 0.1)) throw SpecError("check.wall_tolerance: must lie between 0 and 100 mm");
   if (points < 20) throw SpecError("check.points: must be at least 20");
@@ -79,7 +81,8 @@ double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose
   return static_cast<double>(inside) / static_cast<double>(count);
 }
 
-CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
+CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config,
+                       double widened) {
   const Eigen::Isometry3f X = X_CP.cast<float>();
   const auto& seen = model.seen_from(view_at(model, X));
   const std::size_t count = std::min(seen.size(), static_cast<std::size_t>(config.points));
@@ -87,28 +90,27 @@ CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose
   CheckCounts out;
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Vector3f p = X * model.points()[seen[k]], n = X.linear() * model.normals()[seen[k]];
-    if (!(p.z() > 0) || n.dot(p) > 0) continue;
-    ++out.tried;
+    const float facing = -n.dot(p) / p.norm();  // cosine; also the area the point covers in the image
+    if (!(p.z() > 0) || !(facing > 0.05f)) continue;
+    out.tried += facing;
     const int u = static_cast<int>(std::lround(p.x() / p.z() * scene.camera.fx + scene.camera.cx));
     const int v = static_cast<int>(std::lround(p.y() / p.z() * scene.camera.fy + scene.camera.cy));
     if (!scene.depth.contains(u, v) || std::isnan(scene.depth(u, v))) {
-      ++out.unknown;
+      out.unknown += facing;
       continue;
     }
     // On a slanted surface a small step sideways is a large one in depth.
-    const float slant = std::max(0.35f, -n.dot(p) / p.norm());
-    const float tolerance = depth_tolerance(scene, p.z(), config) / slant;
+    const float tolerance = static_cast<float>(widened) * depth_tolerance(scene, p.z(), config) / std::max(0.35f, facing);
     const float behind = scene.depth(u, v) - p.z();
+    const Eigen::Vector3f& s = scene.normals(u, v);
     if (behind > tolerance) {
-      ++out.through;
+      out.through += facing;
     } else if (behind < -tolerance) {
-      ++out.occluded;
+      out.occluded += facing;
     } else if (!scene.wanted(u, v)) {
-      ++out.unknown;
-    } else if (const Eigen::Vector3f& s = scene.normals(u, v); s.isZero() || s.dot(n) >= least) {
-      ++out.inliers;
+      out.unknown += facing;
     } else {
-      ++out.off;
+      (s.isZero() || s.dot(n) >= least ? out.inliers : out.off) += facing;
     }
   }
   return out;

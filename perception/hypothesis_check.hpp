@@ -18,6 +18,7 @@ struct CheckConfig {
   double least_voxel_share = 0.15;  ///< of the visible points in occupied voxels: below, a hypothesis is dropped
   double tolerance = 0.003;         ///< m, depth agreement of an inlier, at least
   double tolerance_sigmas = 2.5;    ///< and at least this many standard deviations of the sensor
+  double rough = 2;                 ///< times wider before refinement
   double normal_tolerance = 0.9;    ///< rad, normal agreement of an inlier
   double wall_tolerance = 0.004;    ///< m, how far a pose may reach into floor or wall, beside 2 sigma
   int points = 250;                 ///< model points that are tried
@@ -47,8 +48,9 @@ class VoxelSet {
   std::vector<std::uint8_t> filled_;
 };
 
+/// Shares of the visible surface as the camera sees it (every point weighs with the area it covers in the image).
 struct CheckCounts {
-  int tried = 0, inliers = 0, occluded = 0, through = 0, unknown = 0, off = 0;  ///< off: depth agrees, normal does not
+  float tried = 0, inliers = 0, occluded = 0, through = 0, unknown = 0, off = 0;  ///< off: depth agrees, normal does not
   /// Inliers against contradictions, -1 .. 1, larger is better.
   double score() const { return tried > 0 ? (inliers - 1.5 * through - 0.3 * off - 0.2 * unknown) / tried : -1; }
 };
@@ -56,8 +58,9 @@ struct CheckCounts {
 /// Share of the model's visible points in occupied voxels.
 double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose& X_CP, int points);
 
-/// The counts along the rays.
-CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
+/// The shares along the rays; `widened`: tolerance in multiples of the configured one.
+CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config,
+                       double widened = 1);
 
 /// True when no point of the pose lies below the floor or behind a wall (always true without a bin).
 bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);

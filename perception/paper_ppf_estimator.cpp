@@ -9,7 +9,9 @@
 // refined poses are drawn and checked pixel by pixel, and no two may claim the same place (view_check).
 // Deterministic; the seed is not used. Parameters and defaults: the sections of visit().
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <map>
 #include <memory>
 
 #include "core/check.hpp"
@@ -31,8 +33,9 @@ namespace {
 
 struct SearchConfig {
   int clusters = 400;          // hypotheses that are verified, the best of each region first
-  int refined = 60;            // of those, refined coarsely
-  int finished = 30;           // of those, refined finely with the silhouette
+  int refined = 150;           // of those, refined coarsely
+  int regional = 10;           // of those, at most so many whose centres lie in one region of half a diameter
+  int finished = 50;           // of those, refined finely with the silhouette
   double cluster_distance = 0.1;   // of the diameter
   double cluster_angle = 0.4;      // rad
   bool edges = true;               // vote with oriented edge points, too
@@ -40,14 +43,15 @@ struct SearchConfig {
   void visit(ConfigVisitor& v) {
     v.field("clusters", clusters, "hypotheses of a part that are verified");
     v.field("refined", refined, "of those, refined coarsely");
+    v.field("regional", regional, "of those, at most so many in one region of half a diameter");
     v.field("finished", finished, "of those, refined finely");
     v.field("cluster_distance", cluster_distance, Unit::kNone, "poses nearer than this are one, of the diameter");
     v.field("cluster_angle", cluster_angle, Unit::kAngle, "and turned by less than this");
     v.field("edges", edges, "vote with pairs of oriented edge points, beside the paper's surface points");
   }
   void validate() const {
-    if (clusters < 1 || refined < 1 || finished < 1)
-      throw SpecError("search.clusters, refined, finished: must be at least 1");
+    if (clusters < 1 || refined < 1 || regional < 1 || finished < 1)
+      throw SpecError("search.clusters, refined, regional, finished: must be at least 1");
     if (!(cluster_distance > 0 && cluster_distance <= 1))
       throw SpecError("search.cluster_distance: must lie between 0 and 1");
     if (!(cluster_angle > 0 && cluster_angle <= 3.2)) throw SpecError("search.cluster_angle: must lie between 0 and pi");
@@ -98,6 +102,7 @@ class PaperPpfEstimator : public PoseEstimator {
  private:
   std::vector<PoseHypothesis> hypotheses(const PreparedPart& part, const PointCloud& points_C, const PairTable& table) const;
   std::vector<PoseHypothesis> verified(const Scene& scene, const PreparedPart& part, std::vector<PoseHypothesis> poses) const;
+  std::vector<PoseHypothesis> one_region_each(const std::vector<PoseHypothesis>& poses, const PreparedPart& part) const;
   std::vector<Candidate> refined(const Scene& scene, std::size_t index, const std::vector<PoseHypothesis>& poses) const;
   std::vector<PoseHypothesis> coarse(const Scene& scene, const PreparedPart& part,
                                      const std::vector<PoseHypothesis>& poses) const;
@@ -150,11 +155,27 @@ std::vector<PoseHypothesis> PaperPpfEstimator::verified(const Scene& scene, cons
   std::vector<PoseHypothesis> kept;
   for (PoseHypothesis& pose : poses) {
     if (voxel_share(voxels, part.surface, pose.X_CP, check_.points) < check_.least_voxel_share) continue;
-    pose.votes = check_rays(scene, part.surface, pose.X_CP, check_).score();
+    pose.votes = check_rays(scene, part.surface, pose.X_CP, check_, check_.rough).score();
     kept.push_back(pose);
   }
   std::stable_sort(kept.begin(), kept.end(),
                    [](const PoseHypothesis& a, const PoseHypothesis& b) { return a.votes > b.votes; });
+  return one_region_each(kept, part);
+}
+
+/// The best, but not all from the same heap corner: so many a region, up to the number that is refined.
+std::vector<PoseHypothesis> PaperPpfEstimator::one_region_each(const std::vector<PoseHypothesis>& poses,
+                                                               const PreparedPart& part) const {
+  const double edge = 0.5 * part.diameter;
+  std::map<std::array<int, 3>, int> used;
+  std::vector<PoseHypothesis> kept;
+  for (const PoseHypothesis& pose : poses) {
+    const Eigen::Array3d c = (pose.X_CP * part.center_P).array() / edge;
+    const std::array<int, 3> region = {static_cast<int>(std::floor(c.x())), static_cast<int>(std::floor(c.y())),
+                                       static_cast<int>(std::floor(c.z()))};
+    if (++used[region] <= search_.regional) kept.push_back(pose);
+    if (kept.size() == static_cast<std::size_t>(search_.refined)) break;
+  }
   return kept;
 }
 
@@ -162,9 +183,8 @@ std::vector<PoseHypothesis> PaperPpfEstimator::verified(const Scene& scene, cons
 std::vector<PoseHypothesis> PaperPpfEstimator::coarse(const Scene& scene, const PreparedPart& part,
                                                       const std::vector<PoseHypothesis>& poses) const {
   std::vector<PoseHypothesis> out;
-  const std::size_t count = std::min(poses.size(), static_cast<std::size_t>(search_.refined));
-  for (std::size_t i = 0; i < count; ++i) {
-    const IcpResult fit = refine_pose(scene, part.surface, poses[i].X_CP, icp_, IcpStage::kCoarse);
+  for (const PoseHypothesis& pose : poses) {
+    const IcpResult fit = refine_pose(scene, part.surface, pose.X_CP, icp_, IcpStage::kCoarse);
     if (fit.points < 6 || !fits_bin(scene, part.surface, fit.X_CP, check_)) continue;
     out.push_back({fit.X_CP, check_rays(scene, part.surface, fit.X_CP, check_).score()});
   }
