@@ -15,6 +15,8 @@ constexpr double kRobust = 1.5;           // of the scale, Cauchy's constant
 constexpr double kLeastScale = 0.0005;    // m
 constexpr double kPriorLength = 0.02;     // m, damping: directions nothing is known about stay where they are
 constexpr double kPriorAngle = 0.3;       // rad
+constexpr double kStillLength = 5e-5;     // m, a smaller step ends the iteration
+constexpr double kStillAngle = 5e-4;      // rad
 
 /// Weighted normal equations of twists in P: residual = a . twist.
 struct Equations {
@@ -26,6 +28,9 @@ struct Equations {
   void add(const Eigen::Vector3f& p_P, const Eigen::Vector3f& direction_P, double residual, double weight) {
     Vector6d a;
     a << direction_P.cast<double>(), p_P.cross(direction_P).cast<double>();
+    add(a, residual, weight);
+  }
+  void add(const Vector6d& a, double residual, double weight) {
     A.selfadjointView<Eigen::Lower>().rankUpdate(a, weight);
     b += weight * residual * a;
   }
@@ -92,18 +97,29 @@ void add_surface(const Scene& scene, const SurfaceModel& model, const Pose& X_CP
     }
 }
 
-void add_outline(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config,
-                 Equations& out) {
+/// One equation of the outline, kept over iterations: drawing the part is the dearest step.
+struct OutlineRow {
+  Vector6d a;
+  double residual, weight;
+};
+
+std::vector<OutlineRow> outline_rows(const Scene& scene, const SurfaceModel& model, const Pose& X_CP,
+                                     const IcpConfig& config) {
+  std::vector<OutlineRow> rows;
   const PartView view = draw_part(scene.camera, model, X_CP);
-  if (view.pixels == 0) return;
+  if (view.pixels == 0) return rows;
   const auto z = static_cast<float>((X_CP * model.center().cast<double>()).z());
   const float tolerance = std::max(0.004f, 3 * scene.sigma(z));
   const Eigen::Isometry3f X_PC = X_CP.inverse().cast<float>();
   const double scale = config.outline_sigma * scene.pixel(z);
   for (const OutlineOffset& o : outline_offsets(scene, view, static_cast<int>(config.outline_search), tolerance)) {
     const double x = o.offset / (kRobust * scale);
-    out.add(X_PC * o.point_C, X_PC.linear() * o.outward_C, o.offset, 1 / (scale * scale * (1 + x * x)));
+    const Eigen::Vector3f p = X_PC * o.point_C, direction = X_PC.linear() * o.outward_C;
+    Vector6d a;
+    a << direction.cast<double>(), p.cross(direction).cast<double>();
+    rows.push_back({a, o.offset, 1 / (scale * scale * (1 + x * x))});
   }
+  return rows;
 }
 
 /// Information that leaves directions nothing speaks about wide open, turned into a covariance.
@@ -155,12 +171,13 @@ IcpResult refine_pose(const Scene& scene, const SurfaceModel& model, const Pose&
   result.X_CP = X_CP;
   const bool fine = stage == IcpStage::kFine;
   const int iterations = fine ? config.fine_iterations : config.coarse_iterations;
-  const float sigma = scene.sigma(static_cast<float>(X_CP.translation().z()));
+  const auto sigma = static_cast<float>(scene.noise.sigma((X_CP * model.center().cast<double>()).z()));
   const float last = std::max(static_cast<float>(config.least_gate), 3 * sigma);
   float gate = fine ? last : std::max(last, static_cast<float>(config.gate) * 2 * model.radius());
   IcpConfig sampling = config;
   if (!fine) sampling.points /= 2;
   Equations equations;
+  std::vector<OutlineRow> outline;
   double correlated = 1;
   for (int i = 0; i <= iterations; ++i) {
     const Roi roi = roi_of(scene, model, result.X_CP, sampling);
@@ -169,11 +186,13 @@ IcpResult refine_pose(const Scene& scene, const SurfaceModel& model, const Pose&
     add_surface(scene, model, result.X_CP, roi, weighting, equations);
     correlated = std::max(1.0, config.correlated_px / (roi.step * roi.step));
     if (equations.points < 6) break;
-    if (fine && config.silhouette) add_outline(scene, model, result.X_CP, config, equations);
+    if (fine && config.silhouette && i % 2 == 0 && i < iterations) outline = outline_rows(scene, model, result.X_CP, config);
+    for (const OutlineRow& row : outline) equations.add(row.a, row.residual, row.weight);
     if (i == iterations) break;  // the last round only measures
     const Vector6d twist = equations.information().ldlt().solve(equations.b);
     result.X_CP = orthonormalised(result.X_CP * exp_se3(twist));
-    const bool still = twist.head<3>().norm() < 2e-5 && twist.tail<3>().norm() < 2e-4;
+    for (OutlineRow& row : outline) row.residual -= row.a.dot(twist);
+    const bool still = twist.head<3>().norm() < kStillLength && twist.tail<3>().norm() < kStillAngle;
     if (still && gate <= last) i = std::max(i, iterations - 1);
     gate = std::max(last, gate * 0.75f);
   }

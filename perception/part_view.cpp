@@ -34,7 +34,7 @@ PartView draw_part(const PinholeCamera& camera, const SurfaceModel& model, const
   crop.cx -= u0;
   crop.cy -= v0;
   ZBuffer buffer(crop, kNear);
-  buffer.draw(model.shell(), X_CP, 0);
+  buffer.draw(model.shell_facing(X_CP.inverse() * Eigen::Vector3d::Zero()), X_CP, 0);
   view.u0 = u0;
   view.v0 = v0;
   view.depth = buffer.result().depth;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -22,31 +21,6 @@ std::vector<Eigen::Vector3f> sphere_directions(int count) {
   }
   return out;
 }
-
-/// Connected pieces of a mesh; vertices at equal positions are one.
-class Pieces {
- public:
-  explicit Pieces(const TriangleMesh& mesh) : parent_(mesh.vertices.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    std::map<std::array<double, 3>, std::uint32_t> first;
-    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-      const Eigen::Vector3d& v = mesh.vertices[i];
-      join(i, first.emplace(std::array<double, 3>{v.x(), v.y(), v.z()}, i).first->second);
-    }
-    for (const auto& t : mesh.triangles) {
-      join(t[0], t[1]);
-      join(t[1], t[2]);
-    }
-  }
-  std::uint32_t of(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
-
- private:
-  void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-  std::vector<std::uint32_t> parent_;
-};
 
 }  // namespace
 
@@ -95,18 +69,47 @@ int SurfaceModel::view_of(const Eigen::Vector3f& direction_P) const {
   return best;
 }
 
+/// A visible sample lies on the triangle or right beside it in its plane: no sliver leaves a hole, balls and raceways go.
+bool SurfaceModel::shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const {
+  const auto& t = mesh_P.triangles[triangle];
+  const Eigen::Vector3f a = mesh_P.vertices[t[0]].cast<float>(), b = mesh_P.vertices[t[1]].cast<float>(),
+                        c = mesh_P.vertices[t[2]].cast<float>();
+  const Eigen::Vector3f center = (a + b + c) / 3, normal = (b - a).cross(c - a).normalized();
+  const float reach = std::max({(a - center).norm(), (b - center).norm(), (c - center).norm()}) + 2 * spacing_;
+  bool found = false;
+  grid.within(center, reach, [&](std::uint32_t k) {
+    found = found || (normals_[k].dot(normal) > 0.7f && std::abs(normal.dot(points_[k] - center)) < 0.5f * spacing_);
+  });
+  return found;
+}
+
 void SurfaceModel::build_shell(const TriangleMesh& mesh_P) {
-  // A connected piece of which no sample is visible (a ball in its cage) is dropped as a whole; single triangles of a
-  // visible piece stay, so that no sliver can leave a hole.
-  Pieces pieces(mesh_P);
-  const MeshQuery query(mesh_P);
-  std::vector<char> kept(mesh_P.vertices.size(), 0);
-  for (const Eigen::Vector3f& p : points_)
-    if (const auto hit = query.closest(p.cast<double>(), spacing_))
-      kept[pieces.of(mesh_P.triangles[hit->triangle][0])] = 1;
-  shell_.vertices = mesh_P.vertices;
-  for (const auto& t : mesh_P.triangles)
-    if (kept[pieces.of(t[0])]) shell_.triangles.push_back(t);
+  const PointGrid grid(points_, 3 * spacing_);
+  std::vector<std::int32_t> index(mesh_P.vertices.size(), -1);
+  for (std::size_t i = 0; i < mesh_P.triangles.size(); ++i) {
+    if (!shows(mesh_P, i, grid)) continue;
+    std::array<std::uint32_t, 3> t;
+    for (int k = 0; k < 3; ++k) {
+      std::int32_t& v = index[mesh_P.triangles[i][k]];
+      if (v < 0) {
+        v = static_cast<std::int32_t>(shell_.vertices.size());
+        shell_.vertices.push_back(mesh_P.vertices[mesh_P.triangles[i][k]]);
+      }
+      t[k] = static_cast<std::uint32_t>(v);
+    }
+    shell_.triangles.push_back(t);
+    const Eigen::Vector3d& a = shell_.vertices[t[0]];
+    shell_normals_.push_back((shell_.vertices[t[1]] - a).cross(shell_.vertices[t[2]] - a));
+  }
+}
+
+TriangleMesh SurfaceModel::shell_facing(const Eigen::Vector3d& eye_P) const {
+  TriangleMesh facing;
+  facing.vertices = shell_.vertices;
+  for (std::size_t i = 0; i < shell_.triangles.size(); ++i)
+    if (shell_normals_[i].dot(eye_P - shell_.vertices[shell_.triangles[i][0]]) > 0)
+      facing.triangles.push_back(shell_.triangles[i]);
+  return facing;
 }
 
 void SurfaceModel::build_field(float reach) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "perception/neighbours.hpp"
 
 namespace binpick {
 
@@ -24,6 +25,8 @@ class SurfaceModel {
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
   const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
   const TriangleMesh& shell() const { return shell_; }
+  /// The shell's triangles that face an eye: the others are never seen, since the part is closed.
+  TriangleMesh shell_facing(const Eigen::Vector3d& eye_P) const;
   const Eigen::AlignedBox3f& box() const { return box_; }
   Eigen::Vector3f center() const { return box_.center(); }
   float radius() const { return radius_; }    ///< of the sphere about center() that holds the part
@@ -45,12 +48,14 @@ class SurfaceModel {
 
  private:
   void build_shell(const TriangleMesh& mesh_P);
+  bool shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const;
   void build_field(float reach);
   std::vector<Eigen::Vector3f> points_, normals_;
   std::vector<ViewMask> masks_;
   std::vector<Eigen::Vector3f> views_;
   std::vector<std::vector<std::uint32_t>> seen_;
   TriangleMesh shell_;
+  std::vector<Eigen::Vector3d> shell_normals_;  // not unit length
   Eigen::AlignedBox3f box_;
   float radius_ = 0, spacing_ = 0, inverse_cell_ = 1;
   Eigen::Vector3f low_ = Eigen::Vector3f::Zero();
