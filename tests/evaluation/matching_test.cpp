@@ -136,6 +136,26 @@ TEST(Matching, HiddenInstancesCountNeitherWay) {
   EXPECT_FALSE(all.estimates[2].ignored);
 }
 
+TEST(Matching, ATenthVisibleIsNotHidden) {
+  GroundTruth truth = row_of_boxes(2);
+  truth.instances[0].visible_fraction = 0.1;
+  truth.instances[1].visible_fraction = 0.4999;
+  const PoseCheck both = check({estimate_of(truth, 0, 0.9), estimate_of(truth, 1, 0.8)}, truth);
+  EXPECT_EQ(both.counted, 2u);
+  EXPECT_EQ(both.right, 2u);
+  EXPECT_EQ(both.visible, 0u);
+  EXPECT_EQ(both.found, 0u);
+}
+
+// A nearly hidden instance excuses one estimate, not two.
+TEST(Matching, ASecondEstimateOfAHiddenInstanceIsWrong) {
+  GroundTruth truth = row_of_boxes(1);
+  truth.instances[0].visible_fraction = 0.05;
+  const PoseCheck twice = check({estimate_of(truth, 0, 0.9), estimate_of(truth, 0, 0.8)}, truth);
+  EXPECT_EQ(twice.counted, 1u);
+  EXPECT_EQ(twice.right, 0u);
+}
+
 // Where a hidden and a visible instance are both within reach, the visible one is served first.
 TEST(Matching, VisibleInstancesGoFirst) {
   GroundTruth truth = row_of_boxes(2);

@@ -100,6 +100,13 @@ TEST(TrialRecord, HashKnowsNoWallTime) {
   EXPECT_NE(to_json_line(record).find("\"hash\":\"" + hex(record_hash(record)) + "\""), std::string::npos);
 }
 
+// As docs/record_format.md says, so that another program can check it.
+TEST(TrialRecord, HashIsThatOfTheBytesBeforeIt) {
+  const std::string line = to_json_line(full_record());
+  const std::string before = line.substr(0, line.find(",\"hash\":")) + "}";
+  EXPECT_EQ(Hasher().bytes(before.data(), before.size()).value(), record_hash(full_record()));
+}
+
 TEST(TrialRecord, HashKnowsEverythingElse) {
   const TrialRecord record = full_record();
   std::vector<TrialRecord> others(8, record);
