@@ -2,8 +2,10 @@
 #include "core/image_io.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -102,6 +104,23 @@ TEST_F(ImageIo, UnwritablePlaceIsAStorageError) {
   EXPECT_THROW(write_png(below_a_file, Image<Rgb>(4, 4)), StorageError);
   EXPECT_THROW(write_png16(below_a_file, ramp()), StorageError);
   EXPECT_THROW(write_tiff(below_a_file, Image<float>(4, 4)), StorageError);
+}
+
+// A file that may not grow beyond 1000 bytes stands for a full disk: the error comes from write() just the same.
+TEST_F(ImageIo, FullDiskIsAStorageErrorAndLeavesNoImage) {
+  Image<float> image(64, 64);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = 1.0f / static_cast<float>(i + 1);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_tiff(path("a.tif"), image), StorageError);
+  EXPECT_THROW(write_png16(path("a.png"), Image<std::uint16_t>(800, 800)), StorageError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
 }  // namespace
