@@ -6,24 +6,15 @@
 
 #include "core/error.hpp"
 #include "sim/drop.hpp"
+#include "trials/arm_run.hpp"
 
 namespace binpick {
 namespace {
 
 constexpr double kDwell = 0.02;             // s at contact before the seal is judged: plungers come to rest
 constexpr double kVenting = 0.05;           // s from release until the tool leaves
-constexpr double kAllowedDepth = 0.002;     // m, arm or tool in something fixed
 constexpr double kNeighbourMotion = 0.005;  // m
 constexpr double kAtRest = 0.02;            // m/s
-
-JointTrajectory reversed(const JointTrajectory& path) {
-  JointTrajectory back;
-  for (std::size_t i = path.q.size(); i-- > 0;) {
-    back.times.push_back(path.times.back() - path.times[i]);
-    back.q.push_back(path.q[i]);
-  }
-  return back;
-}
 
 const char* name_of(HoldLimit limit) {
   switch (limit) {
@@ -48,7 +39,8 @@ class Execution {
         hold_(cell_world.hold()),
         plan_(plan),
         config_(config),
-        hook_(hook) {
+        hook_(hook),
+        arm_(cell_world, config) {
     HoldConfig hold_config;
     hold_config.break_time = config.break_time;
     cell_.set_hold_config(hold_config);
@@ -61,19 +53,19 @@ class Execution {
   ExecutionResult run() {
     const Vector6d& q_start = plan_.approach.q.front();
     if ((q_start - cell_.joints()).cwiseAbs().maxCoeff() > 1e-6) cell_.jump_to(q_start);
-    if (approach() && seal()) {
-      lift();
-      if (hold_.holds_any()) place();
+    if (approach() && seal() && lift()) {
+      place();
       if (!finished_) judge_place();
     }
     come_to_rest();
     count_neighbours();
+    result_.vacuum_time = arm_.vacuum_time();
+    result_.peak_force = arm_.peak_force();
+    result_.swing = arm_.swing();
     return result_;
   }
 
  private:
-  enum class Watch { kNothing, kCollisions, kHold };
-
   void end(PickOutcome outcome, const std::string& reason) {
     if (finished_) return;  // the first that happens wins
     finished_ = true;
@@ -81,96 +73,29 @@ class Execution {
     result_.reason = reason;
   }
 
-  void step(const Vector6d& q) {
-    cell_.set_joints(q);
-    hold_.step(config_.step);
-    for (const CupState& cup : hold_.cups())
-      result_.peak_force = std::max({result_.peak_force, std::hypot(cup.pull, cup.shear), cup.press});
-    if (result_.lifted && hold_.holds_any()) {
-      const Eigen::Matrix3d R_GP = world_.pose(cell_.tool_body).linear().transpose() * held_pose().linear();
-      result_.swing = std::max(result_.swing, angle_between(R_GP_attached_, R_GP));
-    }
-  }
-
-  /// Runs a path; stops early (false) when what is watched happens.
-  bool follow(const JointTrajectory& path, Watch watch) {
-    const int steps = static_cast<int>(std::ceil(path.duration() / config_.step - 1e-9));
-    for (int i = 1; i <= steps; ++i) {
-      const double t = std::min(i * config_.step, path.duration());
-      step(path.sample(t));
-      result_.motion_time += config_.step;
-      if (watch != Watch::kNothing && blocked()) {
-        reached_ = t;
-        return false;
-      }
-      if (watch == Watch::kHold && !hold_.holds_any()) {
-        reached_ = t;
-        return false;
-      }
-    }
-    return true;
-  }
-
-  void wait(double duration, double& account) {
-    for (double t = 0; t < duration; t += config_.step) {
-      step(cell_.joints());
-      account += config_.step;
-    }
-  }
-
-  bool blocked() {
-    const CellWorld::Touch touch = cell_.arm_contact();
-    result_.peak_force = std::max(result_.peak_force, touch.force);
-    if (touch.force > config_.protective_force || touch.depth > kAllowedDepth) {
-      end(PickOutcome::kPathBlocked, touch.what);
-      return true;
-    }
-    for (const CupState& cup : hold_.cups()) {
-      if (cup.part || cup.press <= config_.protective_force) continue;
-      end(PickOutcome::kProtectiveStop, "a plunger at its end pressed on something");
-      return true;
-    }
-    return false;
-  }
-
   bool approach() {
-    if (follow(plan_.approach, Watch::kCollisions)) return true;
-    retreat(plan_.approach, reached_);
+    if (arm_.follow(plan_.approach, ArmRun::Watch::kCollisions)) return true;
+    end(arm_.blocked()->outcome, "approach: " + arm_.blocked()->reason);
+    arm_.retreat(plan_.approach);
     return false;
-  }
-
-  /// Back along what was travelled of a path, to where it began.
-  void retreat(const JointTrajectory& path, double travelled) {
-    JointTrajectory done;
-    for (std::size_t i = 0; i < path.q.size() && path.times[i] < travelled; ++i) {
-      done.times.push_back(path.times[i]);
-      done.q.push_back(path.q[i]);
-    }
-    done.times.push_back(travelled);
-    done.q.push_back(path.sample(travelled));
-    follow(reversed(done), Watch::kNothing);
   }
 
   /// Asks the gripper about the true surfaces, couples the cups that seal and waits for the vacuum.
   bool seal() {
-    wait(kDwell, result_.vacuum_time);
+    arm_.wait(kDwell, true);
     const std::vector<SurfaceSample> samples = cell_.probe_cups();
     const Contact contact = cell_.cell().gripper->judge(samples);
     if (contact.sealed) {
-      const std::size_t each = samples.size() / contact.cup_sealed.size();
-      for (std::size_t c = 0; c < contact.cup_sealed.size(); ++c)
-        if (contact.cup_sealed[c]) hold_.attach(c, samples[c * each].body);
-      choose_lifted();
+      attach(contact, samples);
       if (build_vacuum()) {
         if (hook_) hook_("held", cell_);
         return true;
       }
-      end(PickOutcome::kNoSeal, "the vacuum did not build up");
     }
-    end(PickOutcome::kNoSeal, seal_report(contact));
+    end(PickOutcome::kNoSeal, contact.sealed ? "the vacuum did not build up" : seal_report(contact));
     result_.lifted.reset();
     hold_.release_all();
-    retreat(plan_.approach, plan_.approach.duration());
+    arm_.retreat(plan_.approach);
     return false;
   }
 
@@ -182,22 +107,24 @@ class Execution {
     return report;
   }
 
-  /// The part that most cups hold.
-  void choose_lifted() {
+  /// Sealed cups take hold; the part that most of them hold is the one that is lifted.
+  void attach(const Contact& contact, const std::vector<SurfaceSample>& samples) {
+    const std::size_t each = samples.size() / contact.cup_sealed.size();
     std::map<BodyId, int> holds;
-    for (const CupState& cup : hold_.cups())
-      if (cup.part) ++holds[*cup.part];
     int most = 0;
-    for (const auto& [body, count] : holds)
-      if (count > most) most = count, held_body_ = body;
+    for (std::size_t c = 0; c < contact.cup_sealed.size(); ++c) {
+      if (!contact.cup_sealed[c]) continue;
+      const BodyId body = samples[c * each].body;
+      hold_.attach(c, body);
+      if (++holds[body] > most) most = holds[body], held_body_ = body;
+    }
     result_.lifted = cell_.heap_index_of(held_body_);
-    R_GP_attached_ = world_.pose(cell_.tool_body).linear().transpose() * held_pose().linear();
+    arm_.watch_swing(held_body_);
   }
 
   bool build_vacuum() {
-    const double start = result_.vacuum_time;
-    while (result_.vacuum_time - start < config_.vacuum_timeout) {
-      wait(config_.step, result_.vacuum_time);
+    for (double t = 0; t < config_.vacuum_timeout; t += config_.step) {
+      arm_.wait(config_.step, true);
       if (!hold_.holds_any()) return false;
       const auto ready = [&](const CupState& cup) { return !cup.part || cup.vacuum_share >= config_.vacuum_share; };
       if (std::all_of(hold_.cups().begin(), hold_.cups().end(), ready)) return true;
@@ -205,35 +132,20 @@ class Execution {
     return false;
   }
 
-  void lift() {
-    const bool whole = follow(plan_.lift, Watch::kHold);
-    if (!whole) {
-      if (!finished_) end_lost_in_lift();
+  bool lift() {
+    if (!arm_.follow(plan_.lift, ArmRun::Watch::kHold)) {
+      if (arm_.blocked()) end(arm_.blocked()->outcome, "lift: " + arm_.blocked()->reason);
+      const HoldLimit limit = last_break();
+      const bool sheared = limit == HoldLimit::kShear || limit == HoldLimit::kTorsion;
+      end(sheared ? PickOutcome::kSlipped : PickOutcome::kPulledOff, std::string("lift: ") + name_of(limit));
       hold_.release_all();
-      JointTrajectory rest;
-      for (const double t : remaining_times(plan_.lift)) {
-        rest.times.push_back(t - reached_);
-        rest.q.push_back(plan_.lift.sample(t));
-      }
-      follow(rest, Watch::kNothing);
+      arm_.finish(plan_.lift);
       go_back();
-      return;
+      return false;
     }
     for (std::size_t i = 0; i < start_centres_.size(); ++i)
       if (came_along(i)) end(PickOutcome::kDoublePick, "part " + std::to_string(i) + " came out with it");
-  }
-
-  std::vector<double> remaining_times(const JointTrajectory& path) const {
-    std::vector<double> times = {reached_};
-    for (const double t : path.times)
-      if (t > reached_) times.push_back(t);
-    return times;
-  }
-
-  void end_lost_in_lift() {
-    const HoldLimit limit = last_break();
-    const bool sheared = limit == HoldLimit::kShear || limit == HoldLimit::kTorsion;
-    end(sheared ? PickOutcome::kSlipped : PickOutcome::kPulledOff, std::string("lift: ") + name_of(limit));
+    return true;
   }
 
   HoldLimit last_break() const {
@@ -250,37 +162,33 @@ class Execution {
   }
 
   void place() {
-    if (!follow(plan_.place, Watch::kHold)) {
-      lost_in_transit_ = !finished_;
-      lost_by_ = last_break();
-      hold_.release_all();
-      JointTrajectory rest;
-      for (const double t : remaining_times(plan_.place)) {
-        rest.times.push_back(t - reached_);
-        rest.q.push_back(plan_.place.sample(t));
-      }
-      follow(rest, Watch::kNothing);
-    } else {
+    if (arm_.follow(plan_.place, ArmRun::Watch::kHold)) {
       if (hook_) hook_("released", cell_);
       hold_.release_all();
-      wait(kVenting, result_.vacuum_time);
+      arm_.wait(kVenting, true);
+    } else {
+      if (arm_.blocked()) end(arm_.blocked()->outcome, "transit: " + arm_.blocked()->reason);
+      lost_by_ = last_break();
+      hold_.release_all();
+      arm_.finish(plan_.place);
     }
-    const double before = result_.motion_time;
-    follow(plan_.back, Watch::kNothing);
-    wait(std::max(0.0, config_.settle_time - kVenting - (result_.motion_time - before)), result_.motion_time);
+    const double before = arm_.motion_time();
+    arm_.follow(plan_.back, ArmRun::Watch::kNothing);
+    arm_.wait(std::max(0.0, config_.settle_time - kVenting - (arm_.motion_time() - before)), false);
   }
 
   /// From above the bin straight to the end of the cycle.
   void go_back() {
     const Vector6d& q_end = plan_.back.q.back();
-    follow(joint_move(*cell_.cell().arm, cell_.joints(), q_end, cell_.cell().motion), Watch::kNothing);
+    arm_.follow(joint_move(*cell_.cell().arm, cell_.joints(), q_end, cell_.cell().motion), ArmRun::Watch::kNothing);
   }
 
   void judge_place() {
     const std::size_t i = *result_.lifted;
-    if (lost_in_transit_) {
-      if (cell_.in_bin(i)) return end(PickOutcome::kDroppedInBin, std::string("transit: ") + name_of(lost_by_));
-      return end(PickOutcome::kLostInTransit, std::string("transit: ") + name_of(lost_by_));
+    if (lost_by_) {
+      const bool back_in_bin = cell_.in_bin(i);
+      return end(back_in_bin ? PickOutcome::kDroppedInBin : PickOutcome::kLostInTransit,
+                 std::string("transit: ") + name_of(*lost_by_));
     }
     if (!cell_.in_tray(i)) return end(PickOutcome::kWrongPlace, "the part does not lie in the tray");
     if (world_.velocity(held_body_).norm() > kAtRest) return end(PickOutcome::kWrongPlace, "the part still moves");
@@ -298,7 +206,7 @@ class Execution {
     rest.time_limit = 3;
     double waited = 0;
     settle(world_, rest, &waited);
-    result_.motion_time += waited;
+    result_.motion_time = arm_.motion_time() + waited;
     for (const BodyId body : cell_.heap().bodies) world_.put_to_sleep(body);
   }
 
@@ -309,21 +217,17 @@ class Execution {
         ++result_.neighbours_moved;
   }
 
-  Pose held_pose() const { return world_.pose(held_body_); }
-
   CellWorld& cell_;
   World& world_;
   CupHold& hold_;
   const PickPlan& plan_;
   const ExecutionConfig& config_;
   const ExecutionHook& hook_;
+  ArmRun arm_;
   ExecutionResult result_;
   bool finished_ = false;
-  bool lost_in_transit_ = false;
-  HoldLimit lost_by_ = HoldLimit::kPull;
-  double reached_ = 0;  ///< s along the path that was stopped
+  std::optional<HoldLimit> lost_by_;  ///< on the way to the tray
   BodyId held_body_ = -1;
-  Eigen::Matrix3d R_GP_attached_ = Eigen::Matrix3d::Identity();
   std::vector<Eigen::Vector3d> start_centres_;
   std::vector<bool> start_in_bin_;
 };

@@ -1,0 +1,103 @@
+#include "trials/arm_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace binpick {
+namespace {
+
+constexpr double kAllowedDepth = 0.002;  // m, arm or tool in something fixed
+
+/// The part of a path before (or after) time t, beginning at 0.
+JointTrajectory head_of(const JointTrajectory& path, double t) {
+  JointTrajectory head;
+  for (std::size_t i = 0; i < path.q.size() && path.times[i] < t; ++i) {
+    head.times.push_back(path.times[i]);
+    head.q.push_back(path.q[i]);
+  }
+  head.times.push_back(t);
+  head.q.push_back(path.sample(t));
+  return head;
+}
+
+JointTrajectory tail_of(const JointTrajectory& path, double t) {
+  JointTrajectory tail;
+  tail.times.push_back(0);
+  tail.q.push_back(path.sample(t));
+  for (std::size_t i = 0; i < path.q.size(); ++i) {
+    if (path.times[i] <= t) continue;
+    tail.times.push_back(path.times[i] - t);
+    tail.q.push_back(path.q[i]);
+  }
+  return tail;
+}
+
+JointTrajectory reversed(const JointTrajectory& path) {
+  JointTrajectory back;
+  for (std::size_t i = path.q.size(); i-- > 0;) {
+    back.times.push_back(path.times.back() - path.times[i]);
+    back.q.push_back(path.q[i]);
+  }
+  return back;
+}
+
+}  // namespace
+
+Eigen::Matrix3d ArmRun::turn_of_held() const {
+  const World& world = cell_.world();
+  return world.pose(cell_.tool_body).linear().transpose() * world.pose(held_).linear();
+}
+
+void ArmRun::watch_swing(BodyId body) {
+  held_ = body;
+  R_GP_start_ = turn_of_held();
+}
+
+void ArmRun::step(const Vector6d& q) {
+  cell_.set_joints(q);
+  cell_.hold().step(config_.step);
+  for (const CupState& cup : cell_.hold().cups())
+    peak_force_ = std::max({peak_force_, std::hypot(cup.pull, cup.shear), cup.press});
+  if (held_ >= 0 && cell_.hold().holds_any()) swing_ = std::max(swing_, angle_between(R_GP_start_, turn_of_held()));
+}
+
+bool ArmRun::collides() {
+  const CellWorld::Touch touch = cell_.arm_contact();
+  peak_force_ = std::max(peak_force_, touch.force);
+  if (touch.force > config_.protective_force || touch.depth > kAllowedDepth) {
+    blocked_ = Blocked{PickOutcome::kPathBlocked, touch.what};
+    return true;
+  }
+  for (const CupState& cup : cell_.hold().cups()) {
+    if (cup.part || cup.press <= config_.protective_force) continue;
+    blocked_ = Blocked{PickOutcome::kProtectiveStop, "a plunger at its end pressed on something"};
+    return true;
+  }
+  return false;
+}
+
+bool ArmRun::follow(const JointTrajectory& path, Watch watch) {
+  const int steps = static_cast<int>(std::ceil(path.duration() / config_.step - 1e-9));
+  for (int i = 1; i <= steps; ++i) {
+    reached_ = std::min(i * config_.step, path.duration());
+    step(path.sample(reached_));
+    motion_time_ += config_.step;
+    if (watch != Watch::kNothing && collides()) return false;
+    if (watch == Watch::kHold && !cell_.hold().holds_any()) return false;
+  }
+  return true;
+}
+
+void ArmRun::finish(const JointTrajectory& path) { follow(tail_of(path, reached_), Watch::kNothing); }
+
+void ArmRun::retreat(const JointTrajectory& path) { follow(reversed(head_of(path, reached_)), Watch::kNothing); }
+
+void ArmRun::wait(double duration, bool vacuum) {
+  const int steps = static_cast<int>(std::lround(duration / config_.step));
+  for (int i = 0; i < steps; ++i) {
+    step(cell_.joints());
+    (vacuum ? vacuum_time_ : motion_time_) += config_.step;
+  }
+}
+
+}  // namespace binpick
