@@ -9,6 +9,7 @@ namespace binpick {
 namespace {
 
 constexpr int kTool = 7;
+constexpr double kLipClearance = 0.001;  // m: lips are soft, and stand beside neighbours of the part they take
 // The links that could meet though joints lie between them; neighbours and the folded wrist cannot.
 bool may_meet(int moving, int other) {
   if (other <= 1) return moving >= 3 && moving - other >= 3;
@@ -54,6 +55,15 @@ CollisionCheck::CollisionCheck(const Cell& cell, double clearance) : cell_(&cell
   };
   carry(cell.gripper->body_G(), cell.gripper->X_FG());
   carry(cell.camera_body_F(), Pose::Identity());
+  for (const CupSpec& cup : cell.gripper->cups()) {
+    // The soft end of a cup, from just above its lip to where the rigid body begins. It may touch what it is pressed
+    // on.
+    constexpr double kLipGap = 0.0005, kSoftEnd = 0.016;
+    const double length = std::max(cup.stroke + 0.006, kSoftEnd) - kLipGap;
+    const Pose X_FS = cell.gripper->X_FG() * cup.X_GU * Eigen::Translation3d(0, 0, -kLipGap - length / 2);
+    const Primitive lip = Primitive::cylinder(cup.radius, length, X_FS);
+    lips_F_.push_back({lip, bounding_radius(lip), kTool, Obstacle::kNone, Pose::Identity()});
+  }
 }
 
 Obstacle CollisionCheck::standing_hit(const Placed& mover) const {
@@ -95,6 +105,8 @@ Obstacle CollisionCheck::tool_hit(const Pose& X_WF) const {
     if (const Obstacle obstacle = standing_hit(placed); obstacle != Obstacle::kNone) return obstacle;
     if (heap_hit(placed)) return Obstacle::kHeap;
   }
+  for (const Solid& lip : lips_F_)
+    if (heap_ && heap_->touches(lip.shape, X_WF, std::min(clearance_, kLipClearance), ignored_)) return Obstacle::kHeap;
   return Obstacle::kNone;
 }
 

@@ -52,7 +52,7 @@ class CollisionCheck {
   double clearance_;
   const ObstacleMap* heap_ = nullptr;
   std::vector<char> ignored_;
-  std::vector<Solid> standing_, links_, tool_F_;
+  std::vector<Solid> standing_, links_, tool_F_, lips_F_;
 };
 
 }  // namespace binpick

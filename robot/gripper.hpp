@@ -39,6 +39,13 @@ struct PickSite {
   double quality = 1;      ///< 0..1: how well the surface seals and how near the mass centre is
 };
 
+/// At contact the tool points against the site's normal: X_WG = X_WP * X_PK * X_KG, turned by `spin` about z_K.
+inline Pose tip_at_site(const Pose& X_WP, const PickSite& site, double spin = 0) {
+  const Pose X_KG(Eigen::AngleAxisd(spin, Eigen::Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX()));
+  return X_WP * site.X_PK * X_KG;
+}
+
 class Gripper {
  public:
   virtual ~Gripper() = default;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,14 +15,18 @@
 namespace binpick {
 
 struct PlanningConfig {
-  double approach = 0.10;      ///< m, straight approach and retreat along the tool, from above the contact
-  double clearance = 0.003;    ///< m, least distance of arm and tool from bin and perceived heap
+  double approach = 0.10;      ///< m, straight approach along the tool, before the contact
+  double clearance = 0.003;    ///< m, least distance of arm and tool from bin, table, tray and perceived heap
   double max_tool_tilt = 0.9;  ///< rad, between tool axis and vertical
   int spins = 12;              ///< turns about the site's normal that are tried
   int max_candidates = 400;    ///< candidates that are checked in full
-  double press = 0.002;        ///< m, how far the lips are pressed beyond the believed contact
+  double press = 0.004;        ///< m, how far the lips are pressed beyond the believed contact: twice the paper's
+                               ///< mean height error of 2 mm, so that a part believed too high is still touched
   double place_height = 0.01;  ///< m, part's lowest point above the tray floor when it is released
   double min_score = 0.0;      ///< estimates below are not picked
+  double acceleration = 5;     ///< m/s^2, added to gravity when a site's hold is checked (physical_models B1)
+  double safety = 1.5;         ///< load factor of that check
+  bool hold_check = true;      ///< false: sites that would peel are tried too, last
   void visit(ConfigVisitor& v);
   void validate() const;
 };
@@ -41,12 +46,29 @@ struct PickPlan {
 struct PlanResult {
   std::optional<PickPlan> plan;
   PickOutcome outcome = PickOutcome::kNoReachablePick;  ///< when there is no plan
-  std::string reason;
+  std::string reason;                     ///< "no reachable pick: 34 at contact in collision with the bin, .."
   std::map<std::string, int> rejections;  ///< reason -> count
-  double wall = 0;
+  double wall = 0;                        ///< s, decides nothing
 };
 
-/// `parts` are those of the estimator. `placed` counts parts already in the tray (chooses the slot).
+/// Holds what depends on cell, parts and config alone (pick sites, prepared meshes); one per worker serves any number
+/// of picks. Keeps references to `cell` and `parts`.
+class PickPlanner {
+ public:
+  PickPlanner(const Cell& cell, std::span<const Part> parts, const PlanningConfig& config);
+  ~PickPlanner();
+  PickPlanner(PickPlanner&&) noexcept;
+  PickPlanner& operator=(PickPlanner&&) noexcept;
+
+  /// `placed` counts parts already in the tray (chooses the slot).
+  PlanResult plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The same for a single pick: finds the pick sites anew, so it is slower by some 0.1 s for each part.
 PlanResult plan_pick(const EstimateResult& found, const SceneView& view, const Pose& X_WC, const Cell& cell,
                      std::span<const Part> parts, const PlanningConfig& config, int placed);
 

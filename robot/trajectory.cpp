@@ -48,6 +48,18 @@ double joint_acceleration(const Arm& arm, int i, const MotionLimits& limits) {
   return arm.limits()[static_cast<std::size_t>(i)].speed / limits.acceleration_time;
 }
 
+/// Profile from 0 to 1 along `way`, as fast as the slowest joint allows.
+Trapezoid joint_profile(const Arm& arm, const Vector6d& way, const MotionLimits& limits) {
+  Trapezoid profile{1, 1e9, 1e9};
+  for (int i = 0; i < 6; ++i) {
+    const double distance = std::abs(way[i]);
+    if (distance == 0) continue;
+    profile.speed = std::min(profile.speed, joint_speed(arm, i, limits) / distance);
+    profile.acceleration = std::min(profile.acceleration, joint_acceleration(arm, i, limits) / distance);
+  }
+  return profile;
+}
+
 /// Joint positions at even steps of the straight line; empty when it leaves workspace, limits or branch.
 std::vector<Vector6d> follow_line(const Arm& arm, const Vector6d& q_from, const Pose& X_from, const Pose& X_to) {
   const Eigen::Vector3d turn = log_so3(X_from.linear().transpose() * X_to.linear());
@@ -115,16 +127,14 @@ Vector6d JointTrajectory::sample(double t) const {
   return (1 - share) * q[i - 1] + share * q[i];
 }
 
+double joint_time(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, const MotionLimits& limits) {
+  return q_from == q_to ? 0 : joint_profile(arm, q_to - q_from, limits).duration();
+}
+
 JointTrajectory joint_move(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, const MotionLimits& limits) {
   const Vector6d way = q_to - q_from;
   if (way.cwiseAbs().maxCoeff() < 1e-12) return {{0}, {q_from}};
-  Trapezoid profile{1, 1e9, 1e9};
-  for (int i = 0; i < 6; ++i) {
-    const double distance = std::abs(way[i]);
-    if (distance == 0) continue;
-    profile.speed = std::min(profile.speed, joint_speed(arm, i, limits) / distance);
-    profile.acceleration = std::min(profile.acceleration, joint_acceleration(arm, i, limits) / distance);
-  }
+  const Trapezoid profile = joint_profile(arm, way, limits);
   const double duration = profile.duration();
   const int steps = std::max(2, static_cast<int>(std::ceil(duration / kSampleTime)));
   JointTrajectory out;

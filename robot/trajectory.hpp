@@ -30,6 +30,9 @@ struct MotionLimits {
 /// limits. With D, v, a of the slowest joint: T = D/v + v/a if D >= v^2/a, else 2 sqrt(D/a) (physical_models C3).
 JointTrajectory joint_move(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, const MotionLimits& limits);
 
+/// Duration of joint_move.
+double joint_time(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, const MotionLimits& limits);
+
 /// Straight Cartesian motion of the flange from `q_from` to X_RF_to, inverse kinematics followed along one branch in
 /// steps of at most 2 mm and 1 degree; slower than `linear_speed` where a joint would exceed its speed or acceleration.
 /// Empty when it leaves the workspace, a limit or the branch.

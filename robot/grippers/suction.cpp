@@ -1,6 +1,6 @@
 // `suction`: one or several vacuum cups on a stem, each on a spring plunger.
 //
-//   preset          one_cup (one 20 mm bellows cup) | three_cups (three 10 mm cups on an 85 mm pitch circle), then the
+//   preset          one_cup (one 15 mm bellows cup) | three_cups (three 10 mm cups on an 85 mm pitch circle), then the
 //                   other keys override it
 //   cups            list of cups: pose in the tip frame G, lip radius, vacuum, plunger ... (core/cup.hpp)
 //   min_cups        cups that must seal; 0 = all
@@ -242,7 +242,7 @@ class Suction : public Gripper {
   void load_preset(const std::string& name) {
     CupSpec cup;
     if (name == "one_cup") {
-      cup.radius = 0.010;  // 20 mm bellows, 1.5 folds
+      cup.radius = 0.0075;  // 15 mm bellows, 1.5 folds
       cup.effective_area_ratio = 0.8;
       cup.lip_compliance = 0.0008;
       cups_ = {cup};

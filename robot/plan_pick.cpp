@@ -1,0 +1,169 @@
+#include "robot/plan_pick.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/check.hpp"
+#include "core/error.hpp"
+#include "robot/motion_planner.hpp"
+#include "robot/pick_candidates.hpp"
+#include "robot/pick_sites.hpp"
+#include "robot/tray_slots.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr double kOwnTolerance = 0.004;  // m, plus three sigma: a heap point this near an estimate's surface is its own
+
+double own_tolerance(const SceneView& view, const std::vector<Target>&) {
+  const auto* frame = std::get_if<DepthFrame>(&view.seen);
+  return kOwnTolerance + (frame ? 3 * frame->noise.sigma(0.6) : 0);
+}
+
+std::string summary(const std::map<std::string, int>& rejections) {
+  std::vector<std::pair<std::string, int>> sorted(rejections.begin(), rejections.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text = "no reachable pick";
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    text += (i == 0 ? ": " : ", ") + std::to_string(sorted[i].second) + " " + sorted[i].first;
+  return text;
+}
+
+}  // namespace
+
+void PlanningConfig::visit(ConfigVisitor& v) {
+  v.field("approach", approach, Unit::kLength, "straight approach along the tool before the contact");
+  v.field("clearance", clearance, Unit::kLength, "least distance of arm and tool from everything but the target");
+  v.field("max_tool_tilt", max_tool_tilt, Unit::kAngle, "largest angle between tool axis and vertical");
+  v.field("spins", spins, "turns about a site's normal that are tried");
+  v.field("max_candidates", max_candidates, "candidates that are checked in full");
+  v.field("press", press, Unit::kLength, "how far the lips are pressed beyond the believed contact");
+  v.field("place_height", place_height, Unit::kLength, "part's lowest point above the tray floor at release");
+  v.field("min_score", min_score, Unit::kNone, "estimates with a lower score are not picked");
+  v.field("acceleration", acceleration, Unit::kAcceleration, "added to gravity when a site's hold is checked");
+  v.field("safety", safety, Unit::kNone, "load factor of that check");
+  v.field("hold_check", hold_check, "false: sites that would peel are tried too, last");
+}
+
+void PlanningConfig::validate() const {
+  const auto need = [](bool good, const char* message) {
+    if (!good) throw SpecError(std::string("planning.") + message);
+  };
+  need(approach >= 0.005 && approach <= 0.5, "approach: must lie between 5 and 500 mm");
+  need(clearance >= 0 && clearance <= 0.05, "clearance: must lie between 0 and 50 mm");
+  need(max_tool_tilt > 0 && max_tool_tilt <= 1.57, "max_tool_tilt: must lie between 0 and 90 degrees");
+  need(spins >= 1 && spins <= 360, "spins: must lie between 1 and 360");
+  need(max_candidates >= 1 && max_candidates <= 100000, "max_candidates: must lie between 1 and 100000");
+  need(press >= 0 && press <= 0.05, "press: must lie between 0 and 50 mm");
+  need(place_height >= 0 && place_height <= 0.2, "place_height: must lie between 0 and 200 mm");
+  need(min_score >= 0 && min_score <= 1, "min_score: must lie between 0 and 1");
+  need(acceleration >= 0 && acceleration <= 100, "acceleration: must lie between 0 and 100 m/s^2");
+  need(safety >= 1 && safety <= 10, "safety: must lie between 1 and 10");
+}
+
+struct PickPlanner::Impl {
+  Impl(const Cell& c, std::span<const Part> p, const PlanningConfig& f) : cell(c), parts(p), config(f), finder(p) {
+    BP_CHECK(cell.arm && cell.gripper, "the cell is not finished");
+    PickSiteConfig site_config;
+    site_config.acceleration = config.acceleration;
+    site_config.safety = config.safety;
+    site_config.press = config.press;
+    site_config.keep_weak = !config.hold_check;
+    for (const Part& part : parts) {
+      sites.push_back(find_pick_sites(part, *cell.gripper, site_config));
+      outlines_P.push_back(outline_of(part.mesh_P));
+    }
+    tool_order = turn_order(*cell.gripper);
+  }
+
+  std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap, int placed,
+                                         std::map<std::string, int>& rejections) const;
+  PickTask task_of(const PickCandidate& candidate, const Target& target, int placed) const;
+
+  const Cell& cell;
+  std::span<const Part> parts;
+  PlanningConfig config;
+  TargetFinder finder;
+  std::vector<PickSites> sites;
+  std::vector<std::vector<Eigen::Vector3d>> outlines_P;
+  int tool_order = 1;
+};
+
+PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target& target, int placed) const {
+  PickTask task;
+  task.X_WG = candidate.X_WG;
+  task.X_WP = target.X_WP;
+  task.outline_P = outlines_P[target.part];
+  const TraySlot slot = tray_slot(cell.tray.inner_size, parts[target.part].diameter, placed);
+  task.slot_T = slot.center_T;
+  task.layer_height = slot.layer * height_along(task.outline_P, candidate.site.X_PK.linear().col(2));
+  return task;
+}
+
+std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
+                                                          int placed, std::map<std::string, int>& rejections) const {
+  const std::vector<PickCandidate> candidates = ranked_candidates(targets, sites, tool_order, config, rejections);
+  std::vector<CollisionCheck> checks(targets.size(), CollisionCheck(cell, config.clearance));
+  // No estimate may use up the whole budget, so that a hopeless first one does not hide a good second one.
+  const int share = std::max(24, config.max_candidates / std::max<int>(1, static_cast<int>(targets.size())));
+  std::vector<int> used(targets.size(), 0);
+  int checked = 0;
+  for (const PickCandidate& candidate : candidates) {
+    if (checked >= config.max_candidates) break;
+    if (used[candidate.target] >= share) continue;
+    const Target& target = targets[candidate.target];
+    CollisionCheck& check = checks[candidate.target];
+    if (used[candidate.target] == 0) {
+      check.set_heap(&heap);
+      check.set_ignored(target.own_points);
+    }
+    ++checked;
+    ++used[candidate.target];
+    std::string why;
+    const MotionPlanner planner(cell, config, check);
+    const auto motion = planner.plan(task_of(candidate, target, placed), why);
+    if (!motion) {
+      ++rejections[why];
+      continue;
+    }
+    return PickPlan{target.estimate,  candidate.site, candidate.X_WG, target.X_WP, motion->X_WP_place,
+                    motion->approach, motion->lift,   motion->place,  motion->back};
+  }
+  return std::nullopt;
+}
+
+PickPlanner::PickPlanner(const Cell& cell, std::span<const Part> parts, const PlanningConfig& config)
+    : impl_(std::make_unique<Impl>(cell, parts, config)) {}
+PickPlanner::~PickPlanner() = default;
+PickPlanner::PickPlanner(PickPlanner&&) noexcept = default;
+PickPlanner& PickPlanner::operator=(PickPlanner&&) noexcept = default;
+
+PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed) const {
+  const auto start = std::chrono::steady_clock::now();
+  PlanResult result;
+  const ObstacleMap heap = perceived_heap(view, X_WC);
+  const std::vector<Target> targets =
+      impl_->finder.find(found, X_WC, heap, own_tolerance(view, {}), impl_->config.min_score);
+  const int low = static_cast<int>(found.estimates.size() - targets.size());
+  if (low > 0) result.rejections["score too low"] = low;
+  for (const Target& target : targets) {
+    const PickSites& sites = impl_->sites[target.part];
+    if (sites.sites.empty())
+      ++result.rejections["no seal predicted (" + impl_->parts[target.part].name + ": " + sites.why_none + ")"];
+  }
+  result.plan = impl_->try_candidates(targets, heap, placed, result.rejections);
+  result.outcome = result.plan               ? PickOutcome::kSucceeded
+                   : found.estimates.empty() ? PickOutcome::kNoDetection
+                                             : PickOutcome::kNoReachablePick;
+  if (!result.plan) result.reason = found.estimates.empty() ? "nothing was detected" : summary(result.rejections);
+  result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+PlanResult plan_pick(const EstimateResult& found, const SceneView& view, const Pose& X_WC, const Cell& cell,
+                     std::span<const Part> parts, const PlanningConfig& config, int placed) {
+  return PickPlanner(cell, parts, config).plan(found, view, X_WC, placed);
+}
+
+}  // namespace binpick
