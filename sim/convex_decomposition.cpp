@@ -81,18 +81,21 @@ std::vector<Points> hacd_clusters(const TriangleMesh& mesh) {
 struct Cluster {
   Points points;
   double volume = 0;
+  double air = 0;  ///< what all its merges added together
 };
 
 Cluster cluster_of(const Points& points) {
   const TriangleMesh hull = convex_hull(points);
-  if (hull.empty()) return {points, 0};
-  return {hull.vertices, enclosed_volume(hull)};
+  if (hull.empty()) return {points, 0, 0};
+  return {hull.vertices, enclosed_volume(hull), 0};
 }
 
 Cluster merged(const Cluster& a, const Cluster& b) {
   Points points = a.points;
   points.insert(points.end(), b.points.begin(), b.points.end());
-  return cluster_of(points);
+  Cluster result = cluster_of(points);
+  result.air = a.air + b.air + std::max(0.0, result.volume - a.volume - b.volume);
+  return result;
 }
 
 /// The cheapest merge first, until each would add more air than allowed and there are few enough pieces. The costs of
@@ -124,8 +127,7 @@ class Merger {
   void fill_row(std::size_t a, std::size_t first) {
     for (std::size_t b = first; b < clusters_.size(); ++b) {
       if (b == a || !alive_[b]) continue;
-      const double air = merged(clusters_[a], clusters_[b]).volume - clusters_[a].volume - clusters_[b].volume;
-      excess_[std::min(a, b)][std::max(a, b)] = air;
+      excess_[std::min(a, b)][std::max(a, b)] = merged(clusters_[a], clusters_[b]).air;
     }
   }
   std::pair<std::size_t, std::size_t> cheapest() const {
