@@ -86,11 +86,11 @@ TEST(PoseError, AngleErrorsWrap) {
   EXPECT_NEAR(pose_error(X_est, X_true, part).abs_rpy.z(), 0.02, 1e-12);
 }
 
-// The branch and bound of a continuous axis against 20000 turns: never above the samples (but for its tolerance), and
+// The branch and bound of a continuous axis against 5000 turns: never above the samples (but for its tolerance), and
 // below them by no more than half a step can make.
 TEST(PoseError, MssdOfRoundPartsAgainstBruteForce) {
   const std::unique_ptr<Metric> mssd = make_metric("mssd");
-  constexpr int kTurns = 20000;
+  constexpr int kTurns = 5000;
   for (const Part& part : {examples::disc(), examples::shaft()}) {
     const ScoringModel model(part);
     const std::vector<Pose> group = sampled_group(part.symmetry, kTurns);
