@@ -10,17 +10,17 @@
 namespace binpick {
 namespace {
 
-constexpr double kSharp = 0.866;       // cosine of 30 degrees between the two faces
-constexpr float kLeastJump = 0.006f;   // m, depth step of an edge
-constexpr int kHalf = 3;               // px, window in which the outward direction is read
+constexpr double kSharp = 0.866;      // cosine of 30 degrees between the two faces
+constexpr float kLeastJump = 0.006f;  // m, depth step of an edge
+constexpr int kHalf = 3;              // px, window in which the outward direction is read
 
 using Key = std::array<double, 3>;
 Key key_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct Side {
-  Eigen::Vector3d a, b;      // the edge as this face runs along it
+  Eigen::Vector3d a, b;  // the edge as this face runs along it
   Eigen::Vector3d normal;
-  Eigen::Vector3d outward;   // in the face's plane, away from the face
+  Eigen::Vector3d outward;  // in the face's plane, away from the face
 };
 
 /// Every directed edge of the mesh, by the positions of its ends.
@@ -62,7 +62,8 @@ Eigen::Vector2f falling_direction(const Scene& scene, int u, int v) {
         ++count;
       }
   // A hole of a few pixels is no edge; nor is a thin bridge that falls away on both sides.
-  if (count < kHalf * (2 * kHalf + 1) / 2 || sum.norm() < 0.8f * static_cast<float>(count)) return Eigen::Vector2f::Zero();
+  if (count < kHalf * (2 * kHalf + 1) / 2 || sum.norm() < 0.8f * static_cast<float>(count))
+    return Eigen::Vector2f::Zero();
   return sum.normalized();
 }
 

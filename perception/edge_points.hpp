@@ -1,6 +1,6 @@
-// Oriented edge points: where a face ends. Each carries, in the place of a normal, the direction that leaves the face in
-// its own plane. Voted with the very same pair feature they fix what flat faces leave free: a plate seen from above has
-// one normal everywhere, but an outline. (Boundary-to-boundary pairs: Choi et al., ICRA 2012.)
+// Oriented edge points: where a face ends. Each carries, in the place of a normal, the direction that leaves the face
+// in its own plane. Voted with the very same pair feature they fix what flat faces leave free: a plate seen from above
+// has one normal everywhere, but an outline. (Boundary-to-boundary pairs: Choi et al., ICRA 2012.)
 #pragma once
 
 #include "core/mesh.hpp"

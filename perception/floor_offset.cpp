@@ -6,7 +6,7 @@
 namespace binpick {
 namespace {
 
-constexpr int kBins = 121;             // over +- the largest offset
+constexpr int kBins = 121;  // over +- the largest offset
 constexpr std::size_t kFewestPixels = 300;
 constexpr double kFewestShare = 0.02;  // of the bin's pixels
 constexpr double kModeShare = 0.4;     // of the highest mode: a deeper mode this high is the floor

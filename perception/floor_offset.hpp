@@ -1,5 +1,6 @@
-// How far the sensor's disparity is off in this frame, read off the visible floor of a bin whose pose is known. A stereo
-// camera's bias is nearly constant in disparity, so in inverse depth: 1/z_seen = 1/z_true + offset. Frame C, metres.
+// How far the sensor's disparity is off in this frame, read off the visible floor of a bin whose pose is known. A
+// stereo camera's bias is nearly constant in disparity, so in inverse depth: 1/z_seen = 1/z_true + offset. Frame C,
+// metres.
 #pragma once
 
 #include "perception/scene.hpp"

@@ -29,7 +29,8 @@ class HullRun {
   bool mark(std::vector<double>& coordinates, std::vector<char>& on_hull) {
     char command[] = "qhull Qc Pp";
     qhT* qh = &state_;
-    if (qh_new_qhull(qh, 3, static_cast<int>(on_hull.size()), coordinates.data(), False, command, nullptr, nullptr) != 0)
+    if (qh_new_qhull(qh, 3, static_cast<int>(on_hull.size()), coordinates.data(), False, command, nullptr, nullptr) !=
+        0)
       return false;
     vertexT *vertex = nullptr, **vertexp = nullptr;
     facetT* facet = nullptr;

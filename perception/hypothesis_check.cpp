@@ -23,23 +23,29 @@ float depth_tolerance(const Scene& scene, float z, const CheckConfig& config) {
 
 void CheckConfig::visit(ConfigVisitor& v) {
   v.field("voxel", voxel, Unit::kNone, "edge of the verification grid, of the diameter (paper 4.2)");
-  v.field("least_voxel_share", least_voxel_share, Unit::kNone, "least share of visible model points in occupied voxels");
+  v.field("least_voxel_share", least_voxel_share, Unit::kNone,
+          "least share of visible model points in occupied voxels");
   v.field("tolerance", tolerance, Unit::kLength, "depth agreement of an inlier, at least");
   v.field("tolerance_sigmas", tolerance_sigmas, Unit::kNone, "the same in standard deviations of the sensor");
   v.field("rough", rough, Unit::kNone, "factor on the tolerance before refinement");
   v.field("normal_tolerance", normal_tolerance, Unit::kAngle, "normal agreement of an inlier");
-  v.field("wall_tolerance", wall_tolerance, Unit::kLength, "how far a pose may reach into floor or wall, beside 2 sigma");
+  v.field("wall_tolerance", wall_tolerance, Unit::kLength,
+          "how far a pose may reach into floor or wall, beside 2 sigma");
   v.field("points", points, "model points tried on a hypothesis");
 }
 
 void CheckConfig::validate() const {
   if (!(voxel >= 0.01 && voxel <= 0.2)) throw SpecError("check.voxel: must lie between 0.01 and 0.2");
-  if (!(least_voxel_share >= 0 && least_voxel_share <= 1)) throw SpecError("check.least_voxel_share: must lie between 0 and 1");
+  if (!(least_voxel_share >= 0 && least_voxel_share <= 1))
+    throw SpecError("check.least_voxel_share: must lie between 0 and 1");
   if (!(tolerance > 0 && tolerance < 0.1)) throw SpecError("check.tolerance: must lie between 0 and 100 mm");
-  if (!(tolerance_sigmas >= 0 && tolerance_sigmas <= 20)) throw SpecError("check.tolerance_sigmas: must lie between 0 and 20");
+  if (!(tolerance_sigmas >= 0 && tolerance_sigmas <= 20))
+    throw SpecError("check.tolerance_sigmas: must lie between 0 and 20");
   if (!(rough >= 1 && rough <= 10)) throw SpecError("check.rough: must lie between 1 and 10");
-  if (!(normal_tolerance > 0 && normal_tolerance <= 3.2)) throw SpecError("check.normal_tolerance: must lie between 0 and pi");
-  if (!(wall_tolerance >= 0 && wall_tolerance < 0.1)) throw SpecError("check.wall_tolerance: must lie between 0 and 100 mm");
+  if (!(normal_tolerance > 0 && normal_tolerance <= 3.2))
+    throw SpecError("check.normal_tolerance: must lie between 0 and pi");
+  if (!(wall_tolerance >= 0 && wall_tolerance < 0.1))
+    throw SpecError("check.wall_tolerance: must lie between 0 and 100 mm");
   if (points < 20) throw SpecError("check.points: must be at least 20");
 }
 
@@ -100,7 +106,8 @@ CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose
       continue;
     }
     // On a slanted surface a small step sideways is a large one in depth.
-    const float tolerance = static_cast<float>(widened) * depth_tolerance(scene, p.z(), config) / std::max(0.35f, facing);
+    const float tolerance =
+        static_cast<float>(widened) * depth_tolerance(scene, p.z(), config) / std::max(0.35f, facing);
     const float behind = scene.depth(u, v) - p.z();
     const Eigen::Vector3f& s = scene.normals(u, v);
     if (behind > tolerance) {
@@ -119,7 +126,8 @@ CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose
 bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
   if (!scene.bin) return true;
   const Eigen::Isometry3f X_BP = (scene.X_CB.inverse() * X_CP).cast<float>();
-  const float slack = static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));
+  const float slack =
+      static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));
   const Eigen::Vector3f half = (scene.bin->inner_size / 2).cast<float>();
   const std::size_t step = std::max<std::size_t>(1, model.points().size() / 300);
   for (std::size_t i = 0; i < model.points().size(); i += step) {

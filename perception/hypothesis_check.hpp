@@ -50,7 +50,8 @@ class VoxelSet {
 
 /// Shares of the visible surface as the camera sees it (every point weighs with the area it covers in the image).
 struct CheckCounts {
-  float tried = 0, inliers = 0, occluded = 0, through = 0, unknown = 0, off = 0;  ///< off: depth agrees, normal does not
+  float tried = 0, inliers = 0, occluded = 0, through = 0, unknown = 0,
+        off = 0;  ///< off: depth agrees, normal does not
   /// Inliers against contradictions, -1 .. 1, larger is better.
   double score() const { return tried > 0 ? (inliers - 1.5 * through - 0.3 * off - 0.2 * unknown) / tried : -1; }
 };

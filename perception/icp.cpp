@@ -66,8 +66,8 @@ Roi roi_of(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, cons
 }
 
 struct Weighting {
-  float gate = 0;      // m
-  double scale = 0;    // m, of one residual
+  float gate = 0;    // m
+  double scale = 0;  // m, of one residual
 };
 
 void add_surface(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const Roi& roi, const Weighting& w,
@@ -140,7 +140,8 @@ void IcpConfig::visit(ConfigVisitor& v) {
   v.field("gate", gate, Unit::kNone, "first reach of the closest points, of the diameter");
   v.field("least_gate", least_gate, Unit::kLength, "last reach, beside three standard deviations of the sensor");
   v.field("accept", accept, Unit::kLength, "accepted mean deviation from the surface (paper 4.2: 1 mm)");
-  v.field("accept_sigmas", accept_sigmas, Unit::kNone, "plus so many standard deviations of the sensor; 0: the paper's");
+  v.field("accept_sigmas", accept_sigmas, Unit::kNone,
+          "plus so many standard deviations of the sensor; 0: the paper's");
   v.field("points", points, "scene points used for one part, about");
   v.field("silhouette", silhouette, "align the outline with the depth steps of the scene");
   v.field("outline_search", outline_search, Unit::kNone, "pixels searched to either side of the outline");
@@ -186,7 +187,8 @@ IcpResult refine_pose(const Scene& scene, const SurfaceModel& model, const Pose&
     add_surface(scene, model, result.X_CP, roi, weighting, equations);
     correlated = std::max(1.0, config.correlated_px / (roi.step * roi.step));
     if (equations.points < 6) break;
-    if (fine && config.silhouette && i % 2 == 0 && i < iterations) outline = outline_rows(scene, model, result.X_CP, config);
+    if (fine && config.silhouette && i % 2 == 0 && i < iterations)
+      outline = outline_rows(scene, model, result.X_CP, config);
     for (const OutlineRow& row : outline) equations.add(row.a, row.residual, row.weight);
     if (i == iterations) break;  // the last round only measures
     const Vector6d twist = equations.information().ldlt().solve(equations.b);

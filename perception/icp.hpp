@@ -1,7 +1,8 @@
-// Iterative closest point on what can be seen (paper 4.2). Only surface points visible at the current pose attract scene
-// points, since the hidden side would pull the part towards itself. Scene points are compared with the model's SURFACE
-// (plane at the nearest surface point). Beside it, when asked, a silhouette term: along the drawn outline the depth step
-// of the scene is searched across the outline, which fixes what flat faces leave free. Frame P for twists; metres.
+// Iterative closest point on what can be seen (paper 4.2). Only surface points visible at the current pose attract
+// scene points, since the hidden side would pull the part towards itself. Scene points are compared with the model's
+// SURFACE (plane at the nearest surface point). Beside it, when asked, a silhouette term: along the drawn outline the
+// depth step of the scene is searched across the outline, which fixes what flat faces leave free. Frame P for twists;
+// metres.
 #pragma once
 
 #include "core/config.hpp"
@@ -14,15 +15,15 @@ namespace binpick {
 struct IcpConfig {
   int coarse_iterations = 10;
   int fine_iterations = 6;
-  double gate = 0.08;            ///< of the diameter, first reach; it shrinks to three standard deviations
-  double least_gate = 0.003;     ///< m
-  double accept = 0.001;         ///< m, mean deviation of the visible scene points from the surface (paper: 1 mm)
-  double accept_sigmas = 1.0;    ///< plus this many standard deviations that the sensor states at the range; 0: paper
-  int points = 700;              ///< scene points used, about
-  bool silhouette = true;        ///< use the outline
-  double outline_search = 6;     ///< px to either side
-  double outline_sigma = 1.0;    ///< px, trust in one outline pixel
-  double correlated_px = 40;     ///< px that share one noise value: scales the covariance (stereo windows correlate)
+  double gate = 0.08;          ///< of the diameter, first reach; it shrinks to three standard deviations
+  double least_gate = 0.003;   ///< m
+  double accept = 0.001;       ///< m, mean deviation of the visible scene points from the surface (paper: 1 mm)
+  double accept_sigmas = 1.0;  ///< plus this many standard deviations that the sensor states at the range; 0: paper
+  int points = 700;            ///< scene points used, about
+  bool silhouette = true;      ///< use the outline
+  double outline_search = 6;   ///< px to either side
+  double outline_sigma = 1.0;  ///< px, trust in one outline pixel
+  double correlated_px = 40;   ///< px that share one noise value: scales the covariance (stereo windows correlate)
 
   void visit(ConfigVisitor& v);
   void validate() const;
@@ -30,9 +31,9 @@ struct IcpConfig {
 
 struct IcpResult {
   Pose X_CP = Pose::Identity();
-  int points = 0;               ///< scene points explained by the surface
-  double mean_deviation = 0;    ///< m
-  double rms = 0;               ///< m
+  int points = 0;             ///< scene points explained by the surface
+  double mean_deviation = 0;  ///< m
+  double rms = 0;             ///< m
   Matrix6d covariance = Matrix6d::Zero();
 };
 

@@ -15,7 +15,8 @@ void ModelCloudConfig::visit(ConfigVisitor& v) {
 
 void ModelCloudConfig::validate() const {
   if (!(spacing >= 0.002 && spacing <= 0.1)) throw SpecError("model.spacing: must lie between 0.002 and 0.1");
-  if (!(view_distance >= 0.6 && view_distance <= 100)) throw SpecError("model.view_distance: must lie between 0.6 and 100");
+  if (!(view_distance >= 0.6 && view_distance <= 100))
+    throw SpecError("model.view_distance: must lie between 0.6 and 100");
   if (!(radius_factor > 1 && radius_factor <= 1e5)) throw SpecError("model.radius_factor: must lie between 1 and 1e5");
 }
 

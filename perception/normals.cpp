@@ -8,8 +8,8 @@
 namespace binpick {
 namespace {
 
-constexpr int kFewest = 6;       // neighbours for a plane
-constexpr int kLargest = 12;     // px, half window: bounds the time on very fine images
+constexpr int kFewest = 6;    // neighbours for a plane
+constexpr int kLargest = 12;  // px, half window: bounds the time on very fine images
 
 /// Sums of eq. 1 and 2 over the window about a pixel, without the far side of a depth jump.
 struct WindowSums {
@@ -51,7 +51,8 @@ WindowSums window_sums(const Scene& scene, int u, int v, const NormalsConfig& co
 
 void NormalsConfig::visit(ConfigVisitor& v) {
   v.field("radius", radius, Unit::kLength, "neighbourhood of the plane fit");
-  v.field("agreement", agreement, Unit::kAngle, "largest angle between a normal and the mean of its neighbours' (eq. 3)");
+  v.field("agreement", agreement, Unit::kAngle,
+          "largest angle between a normal and the mean of its neighbours' (eq. 3)");
 }
 
 void NormalsConfig::validate() const {

@@ -10,8 +10,8 @@
 namespace binpick {
 
 struct NormalsConfig {
-  double radius = 0.007;     ///< m, neighbourhood; several times the sensor's lateral resolution
-  double agreement = 0.6;    ///< rad, largest angle to the neighbours' mean normal (paper eq. 3)
+  double radius = 0.007;   ///< m, neighbourhood; several times the sensor's lateral resolution
+  double agreement = 0.6;  ///< rad, largest angle to the neighbours' mean normal (paper eq. 3)
 
   void visit(ConfigVisitor& v);
   void validate() const;

@@ -35,7 +35,8 @@ std::vector<OutlineOffset> outline_offsets(const Scene& scene, const PartView& v
     }
     if (best > 1e8f) continue;
     const float px = best - static_cast<float>(scene.noise.fattening_px);
-    out.push_back({scene.point(rim.u, rim.v, rim.z), {rim.outward.x(), rim.outward.y(), 0.0f}, px * scene.pixel(rim.z)});
+    out.push_back(
+        {scene.point(rim.u, rim.v, rim.z), {rim.outward.x(), rim.outward.y(), 0.0f}, px * scene.pixel(rim.z)});
   }
   return out;
 }

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <numbers>
 
 #include "core/check.hpp"
 #include "core/error.hpp"
@@ -32,13 +33,13 @@ std::unique_ptr<PoseEstimator> make_paper_ppf_estimator();
 namespace {
 
 struct SearchConfig {
-  int clusters = 400;          // hypotheses that are verified, the best of each region first
-  int refined = 150;           // of those, refined coarsely
-  int regional = 10;           // of those, at most so many whose centres lie in one region of half a diameter
-  int finished = 50;           // of those, refined finely with the silhouette
-  double cluster_distance = 0.1;   // of the diameter
-  double cluster_angle = 0.4;      // rad
-  bool edges = true;               // vote with oriented edge points, too
+  int clusters = 400;             // hypotheses that are verified, the best of each region first
+  int refined = 150;              // of those, refined coarsely
+  int regional = 10;              // of those, at most so many whose centres lie in one region of half a diameter
+  int finished = 50;              // of those, refined finely with the silhouette
+  double cluster_distance = 0.1;  // of the diameter
+  double cluster_angle = 0.4;     // rad
+  bool edges = true;              // vote with oriented edge points, too
 
   void visit(ConfigVisitor& v) {
     v.field("clusters", clusters, "hypotheses of a part that are verified");
@@ -54,7 +55,8 @@ struct SearchConfig {
       throw SpecError("search.clusters, refined, regional, finished: must be at least 1");
     if (!(cluster_distance > 0 && cluster_distance <= 1))
       throw SpecError("search.cluster_distance: must lie between 0 and 1");
-    if (!(cluster_angle > 0 && cluster_angle <= 3.2)) throw SpecError("search.cluster_angle: must lie between 0 and pi");
+    if (!(cluster_angle > 0 && cluster_angle <= 3.2))
+      throw SpecError("search.cluster_angle: must lie between 0 and pi");
   }
 };
 
@@ -100,8 +102,10 @@ class PaperPpfEstimator : public PoseEstimator {
   EstimateResult estimate(const SceneView& view, Seed seed) const override;
 
  private:
-  std::vector<PoseHypothesis> hypotheses(const PreparedPart& part, const PointCloud& points_C, const PairTable& table) const;
-  std::vector<PoseHypothesis> verified(const Scene& scene, const PreparedPart& part, std::vector<PoseHypothesis> poses) const;
+  std::vector<PoseHypothesis> hypotheses(const PreparedPart& part, const PointCloud& points_C,
+                                         const PairTable& table) const;
+  std::vector<PoseHypothesis> verified(const Scene& scene, const PreparedPart& part,
+                                       std::vector<PoseHypothesis> poses) const;
   std::vector<PoseHypothesis> one_region_each(const std::vector<PoseHypothesis>& poses, const PreparedPart& part) const;
   std::vector<Candidate> refined(const Scene& scene, std::size_t index, const std::vector<PoseHypothesis>& poses) const;
   std::vector<PoseHypothesis> coarse(const Scene& scene, const PreparedPart& part,
@@ -144,7 +148,8 @@ std::vector<PoseHypothesis> PaperPpfEstimator::hypotheses(const PreparedPart& pa
                                                           const PairTable& table) const {
   std::vector<PoseHypothesis> poses =
       cluster_poses(vote(points_C, table, part.diameter, voting_), part.symmetry, same(part, 1));
-  if (poses.size() > static_cast<std::size_t>(search_.clusters)) poses.resize(static_cast<std::size_t>(search_.clusters));
+  if (poses.size() > static_cast<std::size_t>(search_.clusters))
+    poses.resize(static_cast<std::size_t>(search_.clusters));
   return poses;
 }
 
@@ -209,7 +214,8 @@ std::vector<Candidate> PaperPpfEstimator::refined(const Scene& scene, std::size_
   std::vector<Candidate> out;
   for (const PoseHypothesis& pose : distinct) {
     Candidate c{index, refine_pose(scene, part.surface, pose.X_CP, icp_, IcpStage::kFine), {}};
-    if (c.fit.points < 6 || c.fit.mean_deviation > accepted_deviation(scene, c.fit.X_CP.translation().z(), icp_)) continue;
+    if (c.fit.points < 6 || c.fit.mean_deviation > accepted_deviation(scene, c.fit.X_CP.translation().z(), icp_))
+      continue;
     if (!fits_bin(scene, part.surface, c.fit.X_CP, check_)) continue;
     c.check = check_view(scene, part.surface, c.fit.X_CP, check_);
     if (accepted(c.check, accept_)) out.push_back(std::move(c));
@@ -217,7 +223,20 @@ std::vector<Candidate> PaperPpfEstimator::refined(const Scene& scene, std::size_
   return out;
 }
 
-PoseEstimate to_estimate(const Candidate& c) {
+/// A turn that changes nothing cannot be known: uniform over a whole turn, about the symmetry's axis (twist in P).
+Matrix6d unknowable(const Symmetry& symmetry) {
+  Matrix6d out = Matrix6d::Zero();
+  const auto add = [&](const Eigen::Vector3d& point_P, const Eigen::Vector3d& direction_P) {
+    Vector6d twist;
+    twist << point_P.cross(direction_P), direction_P;
+    out += std::numbers::pi * std::numbers::pi / 3 * twist * twist.transpose();
+  };
+  if (symmetry.axis) add(symmetry.axis->point_P, symmetry.axis->direction_P.normalized());
+  for (int k = 0; k < 3 && symmetry.center_P; ++k) add(*symmetry.center_P, Eigen::Vector3d::Unit(k));
+  return out;
+}
+
+PoseEstimate to_estimate(const Candidate& c, const Symmetry& symmetry) {
   PoseEstimate e;
   e.part = c.part;
   e.X_CP = c.fit.X_CP;
@@ -225,7 +244,7 @@ PoseEstimate to_estimate(const Candidate& c) {
   e.fit_rms = c.fit.rms;
   const int judged = c.check.inliers + c.check.through + c.check.off + c.check.unknown;
   e.inlier_fraction = judged > 0 ? static_cast<double>(c.check.inliers) / judged : 0;
-  e.covariance = c.fit.covariance;
+  e.covariance = c.fit.covariance + unknowable(symmetry);
   return e;
 }
 
@@ -256,7 +275,7 @@ EstimateResult PaperPpfEstimator::estimate(const SceneView& view, Seed) const {
     result.wall.icp += stage.lap();
   }
   for (const Candidate& c : resolve_conflicts(std::move(candidates), models, scene, accept_))
-    result.estimates.push_back(to_estimate(c));
+    result.estimates.push_back(to_estimate(c, parts_[c.part].symmetry));
   result.wall.verification += stage.lap();
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
   result.wall.total = total.lap();

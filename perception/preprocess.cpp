@@ -74,7 +74,8 @@ void PreprocessConfig::validate() const {
   if (!(floor_cut >= 0 && floor_cut <= 20)) throw SpecError("preprocess.floor_cut: must lie between 0 and 20");
   if (!(floor_cut_least >= 0 && floor_cut_least < 0.1))
     throw SpecError("preprocess.floor_cut_least: must lie between 0 and 100 mm");
-  if (!(wall_margin >= 0 && wall_margin < 0.1)) throw SpecError("preprocess.wall_margin: must lie between 0 and 100 mm");
+  if (!(wall_margin >= 0 && wall_margin < 0.1))
+    throw SpecError("preprocess.wall_margin: must lie between 0 and 100 mm");
   if (!(headroom >= 0 && headroom < 2)) throw SpecError("preprocess.headroom: must lie between 0 and 2 m");
   if (!(near >= 0 && far > near)) throw SpecError("preprocess.near, far: 0 <= near < far is needed");
 }

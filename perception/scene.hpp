@@ -17,14 +17,14 @@ namespace binpick {
 
 struct Scene {
   PinholeCamera camera;
-  Image<float> depth;               ///< z of C, corrected by the floor; NaN = unknown
-  Image<std::uint8_t> wanted;       ///< 1: inside the bin, neither floor nor wall
-  Image<Eigen::Vector3f> normals;   ///< towards the camera; zero where there is none to trust
+  Image<float> depth;              ///< z of C, corrected by the floor; NaN = unknown
+  Image<std::uint8_t> wanted;      ///< 1: inside the bin, neither floor nor wall
+  Image<Eigen::Vector3f> normals;  ///< towards the camera; zero where there is none to trust
   StatedNoise noise;
   std::optional<BinSpec> bin;
   Pose X_CB = Pose::Identity();
-  double floor_offset = 0;          ///< 1/m, what the floor showed the inverse depth to be off by (already removed)
-  double floor_cut = 0;             ///< m, points lower than this above the bin's floor are not wanted
+  double floor_offset = 0;  ///< 1/m, what the floor showed the inverse depth to be off by (already removed)
+  double floor_cut = 0;     ///< m, points lower than this above the bin's floor are not wanted
 
   Eigen::Vector3f point(int u, int v, float z) const {
     return {(static_cast<float>(u) - static_cast<float>(camera.cx)) / static_cast<float>(camera.fx) * z,

@@ -69,7 +69,8 @@ int SurfaceModel::view_of(const Eigen::Vector3f& direction_P) const {
   return best;
 }
 
-/// A visible sample lies on the triangle or right beside it in its plane: no sliver leaves a hole, balls and raceways go.
+/// A visible sample lies on the triangle or right beside it in its plane: no sliver leaves a hole, balls and raceways
+/// go.
 bool SurfaceModel::shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const {
   const auto& t = mesh_P.triangles[triangle];
   const Eigen::Vector3f a = mesh_P.vertices[t[0]].cast<float>(), b = mesh_P.vertices[t[1]].cast<float>(),
@@ -116,7 +117,8 @@ void SurfaceModel::build_field(float reach) {
   const float cell = spacing_;
   inverse_cell_ = 1 / cell;
   low_ = box_.min().array() - reach;
-  size_ = ((box_.max() - box_.min()).array() + 2 * reach).cwiseQuotient(Eigen::Array3f::Constant(cell)).ceil().cast<int>();
+  size_ =
+      ((box_.max() - box_.min()).array() + 2 * reach).cwiseQuotient(Eigen::Array3f::Constant(cell)).ceil().cast<int>();
   size_.array() += 1;
   limit_ = size_.cast<float>().array();
   field_.assign(static_cast<std::size_t>(size_.prod()), -1);

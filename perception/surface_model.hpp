@@ -1,6 +1,6 @@
 // The part as verification and refinement see it: a dense cloud of its outer surface with, for every point, the set of
-// directions it can be seen from, and a grid that answers "which surface point is nearest" in one look-up. Also the mesh
-// without its invisible insides, cheap to draw. Frame P, metres.
+// directions it can be seen from, and a grid that answers "which surface point is nearest" in one look-up. Also the
+// mesh without its invisible insides, cheap to draw. Frame P, metres.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ class SurfaceModel {
   TriangleMesh shell_facing(const Eigen::Vector3d& eye_P) const;
   const Eigen::AlignedBox3f& box() const { return box_; }
   Eigen::Vector3f center() const { return box_.center(); }
-  float radius() const { return radius_; }    ///< of the sphere about center() that holds the part
+  float radius() const { return radius_; }  ///< of the sphere about center() that holds the part
   float spacing() const { return spacing_; }
 
   /// The view nearest to a direction (towards the eye).

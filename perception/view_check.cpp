@@ -27,7 +27,8 @@ bool rim(const PartView& view, int u, int v) {
 /// The drawn surface's normal, or zero at its rim.
 Eigen::Vector3f drawn_normal(const Scene& scene, const PartView& view, int u, int v) {
   const Eigen::Vector3f p = scene.point(u, v, view.at(u, v));
-  const Eigen::Vector3f dx = scene.point(u + 1, v, view.at(u + 1, v)) - p, dy = scene.point(u, v + 1, view.at(u, v + 1)) - p;
+  const Eigen::Vector3f dx = scene.point(u + 1, v, view.at(u + 1, v)) - p,
+                        dy = scene.point(u, v + 1, view.at(u, v + 1)) - p;
   return dy.cross(dx).normalized();  // x right, y down: towards the camera
 }
 
@@ -62,11 +63,13 @@ double leak_of(const Scene& scene, const PartView& view, const CheckConfig& conf
   int leaks = 0, ends = 0;
   for (const OutlinePixel& o : outline_of(view)) {
     const auto pixel = [&](int k) {
-      return Eigen::Vector2i(static_cast<int>(std::lround(static_cast<float>(o.u) + static_cast<float>(k) * o.outward.x())),
-                             static_cast<int>(std::lround(static_cast<float>(o.v) + static_cast<float>(k) * o.outward.y())));
+      return Eigen::Vector2i(
+          static_cast<int>(std::lround(static_cast<float>(o.u) + static_cast<float>(k) * o.outward.x())),
+          static_cast<int>(std::lround(static_cast<float>(o.v) + static_cast<float>(k) * o.outward.y())));
     };
     const Eigen::Vector2i out = pixel(kBeyond), in = pixel(-2);
-    if (!scene.depth.contains(out.x(), out.y()) || !view.inside(in.x(), in.y()) || view.inside(out.x(), out.y())) continue;
+    if (!scene.depth.contains(out.x(), out.y()) || !view.inside(in.x(), in.y()) || view.inside(out.x(), out.y()))
+      continue;
     const float tolerance = depth_tolerance(scene, o.z, config);
     const float here = scene.depth(o.u, o.v);
     if (here < o.z - 2 * tolerance) continue;  // the rim itself is covered
@@ -129,8 +132,9 @@ bool accepted(const ViewCheck& check, const AcceptConfig& config) {
          check.inliers >= config.least_pixels && check.leak <= config.largest_leak;
 }
 
-std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates, const std::vector<const SurfaceModel*>& models,
-                                         const Scene& scene, const AcceptConfig& config) {
+std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates,
+                                         const std::vector<const SurfaceModel*>& models, const Scene& scene,
+                                         const AcceptConfig& config) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.check.score() > b.check.score(); });
   std::vector<char> claimed(scene.depth.size(), 0);

@@ -28,8 +28,8 @@ struct AcceptConfig {
 
 struct ViewCheck {
   int pixels = 0, inliers = 0, covered = 0, through = 0, unknown = 0, off = 0;
-  double leak = 0;                        ///< share of the judged outline at which the surface goes on
-  std::vector<std::uint32_t> explained;   ///< indices of the inlier pixels in the image
+  double leak = 0;                       ///< share of the judged outline at which the surface goes on
+  std::vector<std::uint32_t> explained;  ///< indices of the inlier pixels in the image
 
   double quality() const {
     const double against = 2.0 * through + off;
@@ -51,7 +51,8 @@ struct Candidate {
 };
 
 /// The candidates that can stand together, best first. `models[c.part]` is the model of candidate c.
-std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates, const std::vector<const SurfaceModel*>& models,
-                                         const Scene& scene, const AcceptConfig& config);
+std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates,
+                                         const std::vector<const SurfaceModel*>& models, const Scene& scene,
+                                         const AcceptConfig& config);
 
 }  // namespace binpick

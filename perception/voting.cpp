@@ -69,7 +69,8 @@ void VotingConfig::visit(ConfigVisitor& v) {
 void VotingConfig::validate() const {
   if (!(distance_step == 0 || (distance_step >= 1e-4 && distance_step < 0.5)))
     throw SpecError("voting.distance_step: must be 0 or lie between 0.1 and 500 mm");
-  if (!(relative_step >= 0.01 && relative_step <= 0.5)) throw SpecError("voting.relative_step: must lie between 0.01 and 0.5");
+  if (!(relative_step >= 0.01 && relative_step <= 0.5))
+    throw SpecError("voting.relative_step: must lie between 0.01 and 0.5");
   if (!(angle_step >= 0.05 && angle_step <= 1.6)) throw SpecError("voting.angle_step: must lie between 3 and 90 deg");
   if (reference_step < 1) throw SpecError("voting.reference_step: must be at least 1");
   if (!(pair_radius > 0.05 && pair_radius <= 1)) throw SpecError("voting.pair_radius: must lie between 0.05 and 1");

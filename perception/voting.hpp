@@ -13,14 +13,14 @@
 namespace binpick {
 
 struct VotingConfig {
-  double distance_step = 0;          ///< m; 0: relative_step x diameter. The paper's is 5 mm
-  double relative_step = 0.05;       ///< of the diameter: 5 mm on the paper's 100 mm bearing
-  double angle_step = 0.20943951;    ///< rad, 12 degrees (paper 4)
-  int reference_step = 4;            ///< every n-th scene point is a reference
-  double pair_radius = 0.6;          ///< of the diameter: longest pair that votes
-  int largest_cell = 600;            ///< cells with more entries (coplanar pairs) say little and cost most: skipped
-  int peaks = 3;                     ///< poses a reference may give
-  double peak_ratio = 0.7;           ///< of its best, for the further ones
+  double distance_step = 0;        ///< m; 0: relative_step x diameter. The paper's is 5 mm
+  double relative_step = 0.05;     ///< of the diameter: 5 mm on the paper's 100 mm bearing
+  double angle_step = 0.20943951;  ///< rad, 12 degrees (paper 4)
+  int reference_step = 4;          ///< every n-th scene point is a reference
+  double pair_radius = 0.6;        ///< of the diameter: longest pair that votes
+  int largest_cell = 600;          ///< cells with more entries (coplanar pairs) say little and cost most: skipped
+  int peaks = 3;                   ///< poses a reference may give
+  double peak_ratio = 0.7;         ///< of its best, for the further ones
 
   void visit(ConfigVisitor& v);
   void validate() const;

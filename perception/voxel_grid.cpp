@@ -44,7 +44,8 @@ void add_to_sides(std::vector<Side>& sides, const Eigen::Vector3f& p, const Eige
 PointCloud grid(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals, double voxel) {
   const float inverse = static_cast<float>(1 / voxel);
   std::vector<Keyed> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) keyed[i] = {voxel_key(points[i], inverse), static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keyed[i] = {voxel_key(points[i], inverse), static_cast<std::uint32_t>(i)};
   std::sort(keyed.begin(), keyed.end(),
             [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
   PointCloud out;

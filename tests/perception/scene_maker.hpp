@@ -1,5 +1,6 @@
-// Heaps for the tests of perception, without the simulator: parts lowered one after another onto a height field (nothing
-// interpenetrates, nothing is settled), drawn with core's z-buffer, and a stereo-like noise in the disparity domain.
+// Heaps for the tests of perception, without the simulator: parts lowered one after another onto a height field
+// (nothing interpenetrates, nothing is settled), drawn with core's z-buffer, and a stereo-like noise in the disparity
+// domain.
 #pragma once
 
 #include <algorithm>
@@ -94,8 +95,8 @@ struct Instance {
 
 struct HeapScene {
   std::vector<Instance> instances;
-  DepthFrame frame;            ///< noise-free or noisy
-  SceneView view;              ///< what the estimator is given
+  DepthFrame frame;  ///< noise-free or noisy
+  SceneView view;    ///< what the estimator is given
   Pose X_WC = Pose::Identity();
 };
 
@@ -105,7 +106,7 @@ struct HeapOptions {
   double camera_height = 0.6;
   double upright_share = 0.35;  ///< of parts with any orientation; the others lie within some 15 degrees of flat
   bool noise = true;
-  double bias_px = 0.03;        ///< standard deviation of the frame's disparity offset
+  double bias_px = 0.03;  ///< standard deviation of the frame's disparity offset
   double sigma_px = 0.08;
 };
 
@@ -172,7 +173,8 @@ inline std::vector<Instance> make_heap(const Part& part, const HeapOptions& opti
     double lowest = 1e9;
     for (int attempt = 0, tried = 0; attempt < 80 && tried < 6; ++attempt) {
       const Eigen::Matrix3d R = random_orientation(rng, options.upright_share);
-      const Eigen::Vector3d t(rng.uniform(-0.5, 0.5) * options.bin_size.x(), rng.uniform(-0.5, 0.5) * options.bin_size.y(), 0);
+      const Eigen::Vector3d t(rng.uniform(-0.5, 0.5) * options.bin_size.x(),
+                              rng.uniform(-0.5, 0.5) * options.bin_size.y(), 0);
       std::vector<Eigen::Vector3d> points;
       for (const Eigen::Vector3d& p : surface.points) points.push_back(R * (p - part.box_center_P) + t);
       if (!field.fits(points)) continue;
@@ -197,7 +199,8 @@ inline DepthIds draw_heap(const Part& part, std::vector<Instance>& heap, const P
                           const BinSpec& bin) {
   ZBuffer buffer(camera);
   for (const Primitive& box : bin_boxes(bin, bin.wall)) buffer.draw(mesh_of(box), X_CW, 100000);
-  buffer.draw(mesh_of(Primitive::box({2, 2, 0.02}, pose_from(Eigen::Matrix3d::Identity(), {0, 0, -0.03}))), X_CW, 100001);
+  buffer.draw(mesh_of(Primitive::box({2, 2, 0.02}, pose_from(Eigen::Matrix3d::Identity(), {0, 0, -0.03}))), X_CW,
+              100001);
   for (std::size_t i = 0; i < heap.size(); ++i)
     buffer.draw(part.mesh_P, X_CW * heap[i].X_WP, static_cast<std::int32_t>(i));
   for (std::size_t i = 0; i < heap.size(); ++i) {
@@ -258,7 +261,8 @@ inline Image<std::uint8_t> shadow(const Image<float>& depth, double focal_baseli
   return out;
 }
 
-inline Image<float> stereo_noise(const Image<float>& exact, const PinholeCamera& camera, const HeapOptions& options, Seed seed) {
+inline Image<float> stereo_noise(const Image<float>& exact, const PinholeCamera& camera, const HeapOptions& options,
+                                 Seed seed) {
   const double focal_baseline = camera.fx * 0.05;
   const Image<float> depth = fattened(exact);
   const Image<std::uint8_t> hidden = shadow(depth, focal_baseline);
@@ -270,8 +274,10 @@ inline Image<float> stereo_noise(const Image<float>& exact, const PinholeCamera&
     for (int u = 1; u + 1 < depth.width(); ++u) {
       const double hole = rng.uniform();
       if (!std::isfinite(depth(u, v)) || hidden(u, v) || hole < 0.005) continue;
-      const Eigen::Vector3d dx = camera.unproject(u + 1, v, depth(u + 1, v)) - camera.unproject(u - 1, v, depth(u - 1, v));
-      const Eigen::Vector3d dy = camera.unproject(u, v + 1, depth(u, v + 1)) - camera.unproject(u, v - 1, depth(u, v - 1));
+      const Eigen::Vector3d dx =
+          camera.unproject(u + 1, v, depth(u + 1, v)) - camera.unproject(u - 1, v, depth(u - 1, v));
+      const Eigen::Vector3d dy =
+          camera.unproject(u, v + 1, depth(u, v + 1)) - camera.unproject(u, v - 1, depth(u, v - 1));
       const double cosine = std::abs(dx.cross(dy).normalized().dot(camera.ray(u, v).normalized()));
       const double angle = std::acos(std::min(1.0, cosine));
       const bool smooth = dx.norm() < 0.05 && dy.norm() < 0.05;
