@@ -25,16 +25,12 @@ struct PartItem {
 };
 
 void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
-  v.section_with(
-      "noise",
-      [&](ConfigVisitor& in) {
-        in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
-        in.field("linear", noise.linear, Unit::kNone, "m per m");
-        in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
-        in.field("fattening_px", noise.fattening_px, Unit::kNone,
-                 "how far foreground grows over its outline, in pixels");
-      },
-      "the noise that the camera's data sheet states");
+  v.section_with("noise", [&](ConfigVisitor& in) {
+    in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
+    in.field("linear", noise.linear, Unit::kNone, "m per m");
+    in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
+    in.field("fattening_px", noise.fattening_px, Unit::kNone, "how far foreground grows over its outline, in pixels");
+  }, "the noise that the camera's data sheet states");
 }
 
 // The seed is a 64-bit key: as text, since a YAML number here is a double or an int.
@@ -56,9 +52,8 @@ void visit_seed(ConfigVisitor& v, Seed& seed) {
 void FrameRequest::visit(ConfigVisitor& v) {
   v.section("camera", camera, "intrinsics of depth.tiff");
   visit_noise(v, noise);
-  v.list_with(
-      "parts", parts.size(), [&](std::size_t n) { parts.resize(n); },
-      [&](std::size_t i, ConfigVisitor& in) { PartItem{parts[i]}.visit(in); }, "[{part: ..}] that may be seen");
+  v.list_with("parts", parts.size(), [&](std::size_t n) { parts.resize(n); },
+              [&](std::size_t i, ConfigVisitor& in) { PartItem{parts[i]}.visit(in); }, "[{part: ..}] that may be seen");
   if (v.reading()) has_bin = v.has("bin");
   if (has_bin) {
     v.section("bin", bin, "inner size and walls of the bin, when there is one");
@@ -66,14 +61,11 @@ void FrameRequest::visit(ConfigVisitor& v) {
   }
   visit_seed(v, seed);
   if (v.reading()) estimator = nullptr;
-  v.section_with(
-      "estimator",
-      [&](ConfigVisitor& in) {
-        in.choice("type", estimator_type, estimator_names(), "pose estimator");
-        if (!estimator) estimator = make_estimator(estimator_type);
-        estimator->visit(in);
-      },
-      "the pose estimator");
+  v.section_with("estimator", [&](ConfigVisitor& in) {
+    in.choice("type", estimator_type, estimator_names(), "pose estimator");
+    if (!estimator) estimator = make_estimator(estimator_type);
+    estimator->visit(in);
+  }, "the pose estimator");
   if (!estimator) estimator = make_estimator(estimator_type);
 }
 

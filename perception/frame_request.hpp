@@ -1,6 +1,6 @@
-// A recorded frame as a folder: request.yaml (camera, parts, bin, believed bin pose, seed) and depth.tiff (float
-// metres, NaN = no return). What `binpick trial --out` writes for every pictured look, what `binpick estimate` reads,
-// and what any real camera can be brought into.
+// A recorded frame as a folder: request.yaml (camera, parts, bin, believed bin pose, seed) and depth.tiff (float metres, NaN =
+// no return). What `binpick trial --out` writes for every pictured look, what `binpick estimate` reads, and what any real
+// camera can be brought into.
 #pragma once
 
 #include <string>
