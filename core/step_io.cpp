@@ -9,6 +9,7 @@
 #include <BRep_Tool.hxx>
 #include <IFSelect_WorkSession.hxx>
 #include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -21,10 +22,14 @@
 #include <TopoDS_Face.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
-#include <mutex>
+#include <cstdint>
+#include <cstring>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "core/check.hpp"
+#include "core/isolated.hpp"
 #include "core/mesh_properties.hpp"
 #include "core/mesh_repair.hpp"
 
@@ -34,6 +39,9 @@ namespace {
 constexpr double kMetresPerMillimetre = 0.001;
 constexpr double kFacetAngle = 0.35;    // rad, between the normals at the ends of a facet: small holes stay round
 constexpr double kWeldFraction = 1e-6;  // of the bounding box
+constexpr unsigned kCpuSeconds = 120;   // a bearing takes 0.1 s; a damaged file may take for ever
+constexpr char kGood = '+';             // first byte of the child's answer
+constexpr char kBad = '-';
 constexpr std::size_t kLargestFile =
     1 << 28;  // bytes; a part's model is far below, and the reader needs 20 times as much
 
@@ -50,6 +58,23 @@ void check_frame(const std::string& bytes, const std::string& path) {
   }
 }
 
+/// Entities that describe shape and length must be without fault. Others (tolerances, presentation, and the kinds that
+/// this version of the library does not know) may be faulty in files of good programs and say nothing about the shape.
+void check_shape_entities(const STEPControl_Reader& reader, const std::string& path) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  Interface_CheckIterator faults = reader.WS()->ModelCheckList(false);
+  for (faults.Start(); faults.More(); faults.Next()) {
+    if (!faults.Value()->HasFailed()) continue;
+    const Standard_Integer number = faults.Number();
+    const bool about_the_file = number < 1 || number > model->NbEntities();
+    const std::string type = about_the_file ? "" : model->Value(number)->DynamicType()->Name();
+    if (about_the_file || type.rfind("StepGeom_", 0) == 0 || type.rfind("StepShape_", 0) == 0 ||
+        type.find("Unit") != std::string::npos) {
+      throw AssetError(path + ": is damaged: some of its entities cannot be read");
+    }
+  }
+}
+
 /// The shape in millimetres, whatever the file's unit. The reader takes its target unit from a global of the library
 /// that anybody in the process may have changed, so it is stated here, each time.
 TopoDS_Shape read_shape(const std::string& bytes, const std::string& path) {
@@ -60,9 +85,7 @@ TopoDS_Shape read_shape(const std::string& bytes, const std::string& path) {
   if (reader.ReadStream(path.c_str(), stream) != IFSelect_RetDone) {
     throw AssetError(path + ": is not a readable STEP file");
   }
-  if (!reader.WS()->ModelCheckList(false).IsEmpty(true)) {
-    throw AssetError(path + ": is damaged: some of its entities cannot be read");
-  }
+  check_shape_entities(reader, path);
   reader.TransferRoots();
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull()) throw AssetError(path + ": holds no shape");
@@ -116,19 +139,55 @@ TriangleMesh facets_of(const TopoDS_Shape& shape, double chord_tolerance, const 
   return mesh;
 }
 
+/// The mesh on its way between the two processes.
+std::string encoded(const TriangleMesh& mesh) {
+  const std::uint64_t counts[2] = {mesh.vertices.size(), mesh.triangles.size()};
+  std::string bytes(reinterpret_cast<const char*>(counts), sizeof counts);
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    bytes.append(reinterpret_cast<const char*>(v.data()), 3 * sizeof(double));
+  for (const auto& t : mesh.triangles) bytes.append(reinterpret_cast<const char*>(t.data()), sizeof t);
+  return bytes;
+}
+
+TriangleMesh decoded(std::string_view bytes) {
+  const auto take = [&](void* to, std::size_t size) {
+    BP_CHECK(bytes.size() >= size);
+    std::memcpy(to, bytes.data(), size);
+    bytes.remove_prefix(size);
+  };
+  std::uint64_t counts[2];
+  take(counts, sizeof counts);
+  TriangleMesh mesh;
+  mesh.vertices.resize(counts[0]);
+  mesh.triangles.resize(counts[1]);
+  for (Eigen::Vector3d& v : mesh.vertices) take(v.data(), 3 * sizeof(double));
+  for (auto& t : mesh.triangles) take(t.data(), sizeof t);
+  return mesh;
+}
+
 }  // namespace
 
 TriangleMesh read_step(const std::string& path, double chord_tolerance) {
   BP_CHECK(chord_tolerance > 0 && std::isfinite(chord_tolerance), "chord_tolerance " << chord_tolerance);
   const std::string bytes = read_file(path, kLargestFile);
   check_frame(bytes, path);
-  static std::mutex one_at_a_time;  // the library keeps sessions and settings in globals
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
-  try {
-    return facets_of(read_shape(bytes, path), chord_tolerance, path);
-  } catch (const Standard_Failure& failure) {
-    throw AssetError(path + ": the STEP reader gave up (" + failure.DynamicType()->Name() + ")");
+  // In a process of its own: a damaged file can crash the library, and its settings are globals.
+  const std::optional<std::string> answer = run_isolated(
+      [&]() -> std::string {
+        try {
+          return std::string(1, kGood) + encoded(facets_of(read_shape(bytes, path), chord_tolerance, path));
+        } catch (const AssetError& error) {
+          return std::string(1, kBad) + error.what();
+        } catch (const Standard_Failure& failure) {
+          return std::string(1, kBad) + path + ": the STEP reader gave up (" + failure.DynamicType()->Name() + ")";
+        }
+      },
+      kCpuSeconds);
+  if (!answer || answer->empty()) {
+    throw AssetError(path + ": the STEP reader crashed on it, or took more than " + std::to_string(kCpuSeconds) + " s");
   }
+  if (answer->front() != kGood) throw AssetError(answer->substr(1));
+  return decoded(std::string_view(*answer).substr(1));
 }
 
 }  // namespace binpick
