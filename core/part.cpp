@@ -7,12 +7,14 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/mesh_io.hpp"
+#include "core/mesh_repair.hpp"
 #include "core/quantity.hpp"
 #include "core/yaml.hpp"
 
 namespace binpick {
 namespace {
 
+constexpr double kLeastVolume = 1e-9;      // of the cube of the diameter: folded sheets enclose rounding only
 constexpr double kConvexTolerance = 1e-6;  // of the diameter: float coordinates
 
 void require(bool good, const std::string& key, double value, const std::string& range) {
@@ -48,12 +50,17 @@ std::uint64_t hash_of(const Part& part) {
   return hasher.value();
 }
 
+bool encloses_volume(const TriangleMesh& mesh) {
+  return signed_volume(mesh) > kLeastVolume * std::pow(mesh_diameter(mesh), 3);
+}
+
 /// Every piece closed and convex: each vertex on or below the plane of each triangle.
 void check_pieces(const std::vector<TriangleMesh>& pieces, const std::string& path) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const TriangleMesh& piece = pieces[i];
     const std::string place = path + ": object " + std::to_string(i + 1);
     if (!is_closed(piece)) throw AssetError(place + " is not closed");
+    if (!encloses_volume(piece)) throw AssetError(place + " encloses no volume");
     const double tolerance = kConvexTolerance * mesh_diameter(piece);
     for (const auto& t : piece.triangles) {
       const Eigen::Vector3d& a = piece.vertices[t[0]];
@@ -69,13 +76,18 @@ void check_pieces(const std::vector<TriangleMesh>& pieces, const std::string& pa
 void set_envelope(Part& part, const PartSpec& spec, const MeshReadOptions& options) {
   const std::string& path = spec.envelope.empty() ? spec.mesh : spec.envelope;
   part.envelope_P = spec.envelope.empty() ? part.mesh_P : read_mesh(spec.envelope, options);
-  if (is_closed(part.envelope_P)) return;
+  if (is_closed(part.envelope_P)) {
+    if (!encloses_volume(part.envelope_P)) throw AssetError(path + ": the mesh is closed but encloses no volume");
+    return;
+  }
   if (!(spec.mass > 0)) {
     throw AssetError(path +
                      ": the mesh is not closed, so its mass cannot be computed: state `mass:` or close the mesh");
   }
   part.envelope_P = convex_hull(part.envelope_P.vertices);
-  if (part.envelope_P.empty()) throw AssetError(path + ": the mesh is flat and encloses no volume");
+  if (part.envelope_P.empty() || !encloses_volume(part.envelope_P)) {
+    throw AssetError(path + ": the mesh is flat and encloses no volume");
+  }
 }
 
 }  // namespace

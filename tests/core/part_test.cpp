@@ -264,6 +264,8 @@ TEST_F(PartFile, BadPartsAreRefusedInOneLine) {
   const std::string two = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\n";
   folder_.put("open.obj", two + "f 1 3 2\nf 1 2 4\nf 2 3 4\n");
   folder_.put("dent.obj", two + "v 5 5 5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 5\nf 3 4 5\nf 4 2 5\n");
+  folder_.put("flat.obj", "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 40 40 0\nf 1 2 3\nf 3 2 4\nf 1 3 2\nf 3 4 2\n");
+  folder_.put("sheet.obj", "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 40 40 0\nf 1 2 3\nf 3 2 4\n");
   const std::vector<std::array<std::string, 2>> cases = {
       {"", "empty"},
       {"mesh: missing.stl\n", "missing.stl: cannot open"},
@@ -289,6 +291,9 @@ TEST_F(PartFile, BadPartsAreRefusedInOneLine) {
       {"mesh: block.stl\npieces: block.stl\n", "objects of an .obj"},
       {"mesh: block.stl\npieces: open.obj\n", "object 1 is not closed"},
       {"mesh: block.stl\npieces: dent.obj\n", "object 1 is not convex"},
+      {"mesh: block.stl\npieces: flat.obj\n", "object 1 encloses no volume"},
+      {"mesh: flat.obj\n", "flat.obj: the mesh is closed but encloses no volume"},
+      {"mesh: sheet.obj\nmass: 0.1\n", "sheet.obj: the mesh is flat"},
       {"mesh: block.stl\nenvelope: open.stl\n", "not closed"},
       {"mesh: \"\"\n", "mesh: is empty"},
       {"name: nothing\n", "mesh: a part needs a CAD file"},
