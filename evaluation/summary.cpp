@@ -158,12 +158,10 @@ void add_outcomes(const Records& records, CampaignSummary& summary) {
   }
 }
 
-std::string records_hash(const Records& records) {
+/// Over (seed, hash) in the order of the seeds: independent of the files and workers that the records come from.
+std::string records_hash(const Records& sorted) {
   Hasher hasher;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> pairs;
-  for (const TrialRecord* record : records) pairs.emplace_back(record->seed.key, record_hash(*record));
-  std::sort(pairs.begin(), pairs.end());
-  for (const auto& [seed, hash] : pairs) hasher.add(seed).add(hash);
+  for (const TrialRecord* record : sorted) hasher.add(record->seed.key).add(record_hash(*record));
   return hex(hasher.value());
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/evaluation/example_parts.hpp"
@@ -119,6 +120,46 @@ TEST(Matching, AnEstimateTakesTheNearerOfTwo) {
   EXPECT_EQ(pair.estimates[0].instance, 1u);
   EXPECT_EQ(pair.estimates[1].instance, 0u);  // the nearer is taken; the other is within reach
   EXPECT_EQ(pair.right, 2u);
+  EXPECT_EQ(check({estimate_of(truth, 0, 0.9, 0.001)}, truth).estimates[0].instance, 0u);
+}
+
+// Whatever is wrong is reported against the instance with the least MSSD of all.
+TEST(Matching, WrongEstimatesAreHeldAgainstTheNearest) {
+  const std::vector<Part> parts = {examples::bracket(), examples::disc()};
+  int wrong = 0;
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    Rng rng = Seed{20261124}.child("nearest").rng().at(i);
+    GroundTruth truth;
+    for (std::size_t k = 0; k < 10; ++k) {
+      Pose X_WP = examples::random_pose(rng);
+      X_WP.translation() *= 0.3;
+      truth.instances.push_back({k % 2, k, X_WP, 1.0, 100});
+    }
+    PoseEstimate estimate;
+    estimate.part = i % 2;
+    estimate.X_CP = examples::random_pose(rng);
+    estimate.X_CP.translation() *= 0.3;
+    const MatchedEstimate judged = check({estimate}, truth, parts).estimates[0];
+    wrong += judged.right ? 0 : 1;
+    double least = 1e9;
+    for (const GroundTruth::Instance& instance : truth.instances) {
+      if (instance.part != estimate.part) continue;
+      least = std::min(least, pose_error(estimate.X_CP, instance.X_WP, parts[estimate.part]).mssd);
+    }
+    EXPECT_EQ(judged.error.mssd, least) << "item " << i;
+  }
+  EXPECT_GT(wrong, 20);
+}
+
+// For a part below 20 mm, 2 mm is more than 0.1 diameter.
+TEST(Matching, TwoMillimetresOfASmallPart) {
+  const Part small = examples::part_of("small", mesh_of(Primitive::box({0.01, 0.002, 0.002})));
+  const GroundTruth truth = row_of_boxes(1);
+  const PoseCheck one = check({estimate_of(truth, 0, 1, 0.0015)}, truth, {small});
+  EXPECT_FALSE(one.estimates[0].right);
+  EXPECT_TRUE(one.estimates[0].right_2mm);
+  EXPECT_EQ(one.found, 0u);
+  EXPECT_EQ(one.found_2mm, 1u);
 }
 
 TEST(Matching, HiddenInstancesCountNeitherWay) {
@@ -156,15 +197,16 @@ TEST(Matching, ASecondEstimateOfAHiddenInstanceIsWrong) {
   EXPECT_EQ(twice.right, 0u);
 }
 
-// Where a hidden and a visible instance are both within reach, the visible one is served first.
+// Where a hidden and a visible instance are both within reach, the visible one is served first, though it is farther.
 TEST(Matching, VisibleInstancesGoFirst) {
   GroundTruth truth = row_of_boxes(2);
   truth.instances[1].X_WP = moved_to(0.004, 0, 0) * truth.instances[0].X_WP;
-  truth.instances[1].visible_fraction = 0.05;
+  truth.instances[0].visible_fraction = 0.1;
+  truth.instances[1].visible_fraction = 0.0999;
   const PoseCheck one = check({estimate_of(truth, 0, 0.9, 0.003)}, truth);
   EXPECT_EQ(one.estimates[0].instance, 0u);
   EXPECT_FALSE(one.estimates[0].ignored);
-  EXPECT_EQ(one.found, 1u);
+  EXPECT_EQ(one.right, 1u);
 }
 
 TEST(Matching, AnotherPartIsNoMatch) {

@@ -156,6 +156,11 @@ TEST(TrialRecord, AlteredValuesAreNoticed) {
   const std::string line = to_json_line(full_record());
   const std::string altered = refusal(replaced(line, "\"placed\":1", "\"placed\":9"));
   EXPECT_NE(altered.find("hash: does not fit"), std::string::npos) << altered;
+  EXPECT_EQ(refusal(replaced(line, "\"plan\":0.05}]}", "\"plan\":0.05},{}]}"))
+                .rfind("run/records/a.jsonl:7: wall.picks[2]", 0),
+            0u);
+  EXPECT_EQ(refusal(line.substr(0, line.rfind("\"picks\":[")) + "\"picks\":[]}}"),
+            "run/records/a.jsonl:7: wall.picks: is not as long as the list of picks");
   EXPECT_EQ(refusal(replaced(line, "\"wall\":{\"total\":12.5", "\"wall\":{\"total\":13.5")), "accepted");
 }
 
