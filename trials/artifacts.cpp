@@ -52,7 +52,7 @@ cv::Point centre_of(const Image<std::int32_t>& ids, std::int32_t id) {
 // From beside and above the bin, looking at its middle.
 Pose bystander(const Cell& cell) {
   const Eigen::Vector3d target = cell.X_WB * Eigen::Vector3d(0, 0, 0.3 * cell.bin.inner_size.z());
-  const Eigen::Vector3d eye = target + 1.9 * cell.bin.inner_size.head<2>().maxCoeff() * Eigen::Vector3d(0.75, -0.85, 1.0);
+  const Eigen::Vector3d eye = target + 1.9 * cell.bin.inner_size.head<2>().maxCoeff() * Eigen::Vector3d(0.55, -0.55, 1.25);
   const Eigen::Vector3d z = (target - eye).normalized(), x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d R;
   R << x, z.cross(x), z;
