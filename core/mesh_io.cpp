@@ -117,7 +117,8 @@ TriangleMesh read_mesh(const std::string& path, const MeshReadOptions& options, 
   const MeshRepairs repairs = repair(mesh, path);
   check_size(mesh, metres, step, path);
   if (report != nullptr) {
-    *report = {repairs.dropped_triangles, repairs.merged_vertices, repairs.turned_inside_out, is_closed(mesh)};
+    *report = {repairs.dropped_triangles, repairs.merged_vertices, repairs.turned_triangles, repairs.turned_inside_out,
+               is_closed(mesh)};
   }
   return mesh;
 }

@@ -19,6 +19,7 @@ struct MeshReadOptions {
 struct MeshReadReport {
   std::size_t dropped_triangles = 0;
   std::size_t merged_vertices = 0;
+  std::size_t turned_triangles = 0;  ///< that disagreed with their neighbours
   bool turned_inside_out = false;
   bool closed = false;
 };

@@ -140,6 +140,7 @@ MeshRepairs repair_mesh(TriangleMesh& mesh, double weld_distance) {
       mesh = std::move(welded);
     }
   }
+  if (!mesh.empty() && !is_closed(mesh)) repairs.turned_triangles = turn_to_neighbours(mesh);
   if (!mesh.empty() && is_closed(mesh) && signed_volume(mesh) < 0) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     repairs.turned_inside_out = true;

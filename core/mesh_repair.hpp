@@ -18,8 +18,14 @@ double signed_volume(const TriangleMesh& mesh);
 struct MeshRepairs {
   std::size_t dropped_triangles = 0;  ///< without area, or repeated
   std::size_t merged_vertices = 0;
+  std::size_t turned_triangles = 0;  ///< that disagreed with their neighbours
   bool turned_inside_out = false;
 };
+
+/// Turns triangles until neighbours agree, when every edge has exactly two and the surface has two sides; otherwise
+/// leaves all as they are. Connected pieces that disagreed with themselves then face outward. Returns how many were
+/// turned.
+std::size_t turn_to_neighbours(TriangleMesh& mesh);
 
 /// Repairs `mesh` in place. Vertices closer than `weld_distance` in every coordinate may become one when that closes
 /// the surface; exactly equal ones always do. Vertices that no triangle uses are dropped, order is kept.

@@ -1,4 +1,4 @@
-#include "cad_shapes.hpp"
+#include "tools/cad_shapes.hpp"
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -26,7 +26,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cad_dimensions.hpp"
+#include "tools/cad_dimensions.hpp"
 #include "core/error.hpp"
 
 namespace binpick {

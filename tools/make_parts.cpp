@@ -5,9 +5,9 @@
 #include <exception>
 #include <string>
 
-#include "cad_dimensions.hpp"
-#include "cad_pieces.hpp"
-#include "cad_shapes.hpp"
+#include "tools/cad_dimensions.hpp"
+#include "tools/cad_pieces.hpp"
+#include "tools/cad_shapes.hpp"
 #include "core/file_io.hpp"
 #include "core/mesh_io.hpp"
 #include "core/quantity.hpp"

@@ -123,6 +123,28 @@ TEST_F(MeshIo, InsideOutIsTurned) {
   EXPECT_TRUE(report_.turned_inside_out);
 }
 
+TEST_F(MeshIo, MixedOrientationIsTurned) {
+  const Seed seed = Seed{1}.child("mixed-orientation");
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    SCOPED_TRACE("item " + std::to_string(i));
+    Rng rng = seed.rng().at(i);
+    TriangleMesh mesh = mesh_of(Primitive::cylinder(0.03, 0.05), 16);
+    append(mesh, mesh_of(Primitive::box({0.02, 0.02, 0.02}, Pose(Eigen::Translation3d(0.1, 0, 0)))));
+    const double volume = mass_properties(mesh, 1).volume;
+    std::size_t turned = 0;
+    for (auto& t : mesh.triangles) {
+      if (rng.uniform() > 0.2) continue;
+      std::swap(t[0], t[1]);
+      ++turned;
+    }
+    write_ply(folder_.at("a.ply"), mesh);
+    const MassProperties found = mass_properties(read_mesh(folder_.at("a.ply"), {}, &report_), 1);
+    EXPECT_TRUE(report_.closed);
+    EXPECT_EQ(report_.turned_triangles, turned);
+    EXPECT_NEAR(found.volume, volume, 1e-5 * volume);
+  }
+}
+
 TEST_F(MeshIo, OpenMeshesAreReadAndReported) {
   const std::string text = samples::ascii_stl();
   const std::size_t first = text.find("  facet");

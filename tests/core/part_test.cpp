@@ -212,6 +212,15 @@ TEST_F(PartFile, DefaultsAreEnough) {
   EXPECT_LT((part.box_center_P - Eigen::Vector3d(0.01, 0.02, 0.03)).norm(), 1e-8);
 }
 
+#ifdef BINPICK_WITH_STEP
+TEST_F(PartFile, MayBeAStepFile) {
+  folder_.put("tee.step", samples::step());
+  const Part part = load("mesh: tee.step\nchord_tolerance: 0.2 mm\ndensity: 7860\n");
+  EXPECT_EQ(part.name, "tee");
+  EXPECT_NEAR(part.mass.mass, 33280e-9 * 7860, 1e-9);
+}
+#endif
+
 TEST_F(PartFile, StatedMassDecidesTheDensity) {
   const Part part = load("mesh: block.stl\nmass: 480 g\n");
   EXPECT_EQ(part.mass.mass, 0.48);
