@@ -12,8 +12,8 @@ namespace {
 
 struct Patch {
   std::array<Eigen::Vector3d, 3> corners;
+  Eigen::Vector3d normal;
   double area;
-  std::uint32_t triangle;
 };
 
 /// Halves the triangle at its longest edge until every patch is below `limit`; neighbours stay neighbours in the list.
@@ -35,8 +35,19 @@ void add_patches(const Patch& patch, double limit, std::vector<Patch>& patches) 
   const Eigen::Vector3d& to = patch.corners[(longest + 1) % 3];
   const Eigen::Vector3d& apex = patch.corners[(longest + 2) % 3];
   const Eigen::Vector3d middle = (from + to) / 2;
-  add_patches({{from, middle, apex}, patch.area / 2, patch.triangle}, limit, patches);
-  add_patches({{middle, to, apex}, patch.area / 2, patch.triangle}, limit, patches);
+  add_patches({{from, middle, apex}, patch.normal, patch.area / 2}, limit, patches);
+  add_patches({{middle, to, apex}, patch.normal, patch.area / 2}, limit, patches);
+}
+
+std::vector<Patch> make_patches(const TriangleMesh& mesh, double limit) {
+  std::vector<Patch> patches;
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    const double twice = normal.norm();
+    if (twice > 0) add_patches({{a, b, c}, normal / twice, twice / 2}, limit, patches);
+  }
+  return patches;
 }
 
 }  // namespace
@@ -48,17 +59,7 @@ PointCloud sample_surface(const TriangleMesh& mesh_P, double spacing, Seed seed)
   const double wanted = total / (spacing * spacing);
   BP_CHECK(wanted < kMostPoints, "spacing " << spacing << " on an area of " << total);
   if (!(total > 0)) return {};
-  std::vector<Patch> patches;
-  std::vector<Eigen::Vector3d> normals(mesh_P.triangles.size());
-  for (std::size_t i = 0; i < mesh_P.triangles.size(); ++i) {
-    const auto& t = mesh_P.triangles[i];
-    const Patch patch{{mesh_P.vertices[t[0]], mesh_P.vertices[t[1]], mesh_P.vertices[t[2]]}, 0, 0};
-    const Eigen::Vector3d normal = (patch.corners[1] - patch.corners[0]).cross(patch.corners[2] - patch.corners[0]);
-    const double twice = normal.norm();
-    if (!(twice > 0)) continue;
-    normals[i] = normal / twice;
-    add_patches({patch.corners, twice / 2, static_cast<std::uint32_t>(i)}, spacing * spacing, patches);
-  }
+  const std::vector<Patch> patches = make_patches(mesh_P, spacing * spacing);
   // Systematic sampling: one point in every n-th part of the area, taken along the list of patches.
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round(wanted)));
   const Rng stream = seed.rng();
@@ -77,7 +78,7 @@ PointCloud sample_surface(const TriangleMesh& mesh_P, double spacing, Seed seed)
     }
     const auto& [a, b, c] = patches[at].corners;
     cloud.points.push_back(a + u * (b - a) + v * (c - a));
-    cloud.normals.push_back(normals[patches[at].triangle]);
+    cloud.normals.push_back(patches[at].normal);
   }
   return cloud;
 }
