@@ -84,6 +84,17 @@ TEST(MassProperties, RegularPrismRingIsExact) {
   EXPECT_NEAR(m.inertia_P(0, 0), izz / 2 + m.mass * height * height / 12, 1e-12);
 }
 
+TEST(MassProperties, RegularPrismIsExact) {
+  const int n = 48;
+  const double step = 2 * kPi / n;
+  const MassProperties m = mass_properties(mesh_of(Primitive::cylinder(0.03, 0.1), n), 7860);
+  const double area = n / 2.0 * 0.03 * 0.03 * std::sin(step);
+  EXPECT_NEAR(m.volume, area * 0.1, 1e-16);
+  const double izz = m.mass * 0.03 * 0.03 * (2 + std::cos(step)) / 6;
+  EXPECT_NEAR(m.inertia_P(2, 2), izz, 1e-12);
+  EXPECT_NEAR(m.inertia_P(1, 1), izz / 2 + m.mass * 0.1 * 0.1 / 12, 1e-12);
+}
+
 TEST(MassProperties, ConvergesToTheRoundRing) {
   const double volume = kPi * (0.05 * 0.05 - 0.035 * 0.035) * 0.016;
   for (const int n : {32, 64, 128}) {
