@@ -14,9 +14,7 @@ find_package(TIFF REQUIRED)
 # CMake's own FindBullet finds only the single-precision libraries, and mixing precisions is an ABI error.
 pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 add_library(binpick_bullet INTERFACE)
-# HACD (package libbullet-extras-dev) splits foreign meshes into convex pieces.
-find_library(HACD_LIBRARY NAMES HACD-float64 REQUIRED)
-target_link_libraries(binpick_bullet INTERFACE PkgConfig::BULLET ${HACD_LIBRARY})
+target_link_libraries(binpick_bullet INTERFACE PkgConfig::BULLET)
 
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 

@@ -1,82 +1,18 @@
 #include "sim/convex_decomposition.hpp"
 
-#include <HACD/hacdHACD.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "core/convex_hull.hpp"
 #include "sim/reduced_hull.hpp"
+#include "sim/solid_region.hpp"
 
 namespace binpick {
 namespace {
 
-/// Vertices on a grid of `cell` metres count as one (0: only equal ones); triangles that collapse go away.
-TriangleMesh welded(const TriangleMesh& mesh, double cell) {
-  std::map<std::array<double, 3>, std::uint32_t> seen;
-  TriangleMesh result;
-  std::vector<std::uint32_t> index;
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    std::array<double, 3> key{v.x(), v.y(), v.z()};
-    if (cell > 0)
-      for (double& c : key) c = std::floor(c / cell + 0.5);
-    const auto [it, fresh] = seen.try_emplace(key, static_cast<std::uint32_t>(result.vertices.size()));
-    if (fresh) result.vertices.push_back(v);
-    index.push_back(it->second);
-  }
-  for (const auto& t : mesh.triangles) {
-    const std::array<std::uint32_t, 3> welded_t{index[t[0]], index[t[1]], index[t[2]]};
-    if (welded_t[0] == welded_t[1] || welded_t[1] == welded_t[2] || welded_t[2] == welded_t[0]) continue;
-    result.triangles.push_back(welded_t);
-  }
-  return result;
-}
-
-double diagonal_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& v : mesh.vertices) box.extend(v);
-  return box.isEmpty() ? 0 : box.diagonal().norm();
-}
-
-TriangleMesh thinned(const TriangleMesh& mesh, std::size_t max_triangles) {
-  TriangleMesh result = welded(mesh, 0);
-  for (double cell = diagonal_of(mesh) / 200; result.triangles.size() > max_triangles; cell *= 1.4)
-    result = welded(mesh, cell);
-  return result;
-}
-
 using Points = std::vector<Eigen::Vector3d>;
-
-/// Point sets of HACD's clusters. Its tolerances are made for numbers about 1: millimetres go in.
-std::vector<Points> hacd_clusters(const TriangleMesh& mesh) {
-  std::vector<HACD::Vec3<HACD::Real>> points;
-  std::vector<HACD::Vec3<long>> triangles;
-  for (const Eigen::Vector3d& v : mesh.vertices) points.emplace_back(1e3 * v.x(), 1e3 * v.y(), 1e3 * v.z());
-  for (const auto& t : mesh.triangles) triangles.emplace_back(long(t[0]), long(t[1]), long(t[2]));
-  HACD::HACD hacd;
-  hacd.SetPoints(points.data());
-  hacd.SetNPoints(points.size());
-  hacd.SetTriangles(triangles.data());
-  hacd.SetNTriangles(triangles.size());
-  hacd.SetCompacityWeight(1e-4);
-  hacd.SetVolumeWeight(0.0);
-  hacd.SetNClusters(2);
-  hacd.SetNVerticesPerCH(100);
-  hacd.SetConcavity(2.0);
-  hacd.SetAddExtraDistPoints(true);
-  hacd.SetAddNeighboursDistPoints(true);
-  hacd.SetAddFacesPoints(true);
-  hacd.Compute();
-  std::vector<Points> clusters(hacd.GetNClusters());
-  const long* partition = hacd.GetPartition();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const std::uint32_t v : mesh.triangles[t])
-      clusters[static_cast<std::size_t>(partition[t])].push_back(mesh.vertices[v]);
-  return clusters;
-}
 
 struct Cluster {
   Points points;
@@ -145,6 +81,49 @@ class Merger {
   std::vector<std::vector<double>> excess_;
 };
 
+struct Cut {
+  std::array<SolidRegion, 2> sides;
+  double score = INFINITY;
+};
+
+/// The plane that leaves the least air in the two hulls, and shares it evenly: the first cut of a ring leaves all of
+/// it.
+Cut best_cut(const SolidSampler& sampler, const SolidRegion& region) {
+  Cut best;
+  for (const SolidRegion::Plane& plane : sampler.candidates(region)) {
+    std::array<SolidRegion, 2> sides = sampler.cut(region, plane);
+    const double left = sampler.air_volume(sides[0]), right = sampler.air_volume(sides[1]);
+    const double score = left + right + 0.1 * std::max(left, right);
+    if (score < best.score) best = {std::move(sides), score};
+  }
+  return best;
+}
+
+/// Cuts the region with the most air, again and again.
+std::vector<Cluster> cut_up(const TriangleMesh& mesh, const DecompositionLimits& limits, double volume) {
+  const SolidSampler sampler(mesh, limits.cells);
+  std::vector<SolidRegion> open = {sampler.whole()}, done;
+  while (!open.empty() && open.size() + done.size() < 2 * limits.max_pieces) {
+    const auto most = std::max_element(open.begin(), open.end(),
+                                       [](const auto& a, const auto& b) { return a.air.size() < b.air.size(); });
+    const SolidRegion region = std::move(*most);
+    open.erase(most);
+    Cut cut;
+    if (sampler.air_volume(region) > limits.piece_air * volume) cut = best_cut(sampler, region);
+    if (!std::isfinite(cut.score)) {
+      done.push_back(region);
+      continue;
+    }
+    for (SolidRegion& side : cut.sides)
+      if (!side.hull.empty()) open.push_back(std::move(side));
+  }
+  done.insert(done.end(), open.begin(), open.end());
+  std::vector<Cluster> clusters;
+  for (const SolidRegion& region : done)
+    if (!region.hull.empty()) clusters.push_back({region.hull.vertices, enclosed_volume(region.hull), 0});
+  return clusters;
+}
+
 }  // namespace
 
 std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const DecompositionLimits& limits) {
@@ -152,11 +131,9 @@ std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const D
   if (whole.empty()) return {};
   const double volume = std::abs(enclosed_volume(mesh));
   if (enclosed_volume(convex_hull(mesh.vertices)) - volume < limits.convex_enough * volume) return {whole};
-  std::vector<Cluster> clusters;
-  for (const Points& points : hacd_clusters(thinned(mesh, limits.max_triangles)))
-    if (!points.empty()) clusters.push_back(cluster_of(points));
+  Merger merger(cut_up(mesh, limits, volume));
   std::vector<TriangleMesh> pieces;
-  for (const Cluster& cluster : Merger(std::move(clusters)).run(limits.merge_excess * volume, limits.max_pieces)) {
+  for (const Cluster& cluster : merger.run(limits.merge_air * volume, limits.max_pieces)) {
     TriangleMesh piece = simplified_hull(cluster.points, limits.max_vertices, limits.tolerance);
     if (!piece.empty()) pieces.push_back(std::move(piece));
   }
