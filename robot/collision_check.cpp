@@ -110,20 +110,44 @@ Obstacle CollisionCheck::tool_hit(const Pose& X_WF) const {
   return Obstacle::kNone;
 }
 
-Obstacle CollisionCheck::hit(const Vector6d& q) const {
+std::vector<CollisionCheck::Placed> CollisionCheck::robot_at(const Vector6d& q) const {
   const std::vector<Pose> X_RL = cell_->arm->link_poses(q);
   const Pose X_WF = cell_->X_WR * cell_->arm->forward(q);
-  if (const Obstacle obstacle = tool_hit(X_WF); obstacle != Obstacle::kNone) return obstacle;
   std::vector<Placed> movers;
   for (const Solid& solid : links_)
     movers.push_back({&solid, cell_->X_WR * X_RL[static_cast<std::size_t>(solid.link)] * solid.shape.X_OS});
+  for (const Solid& solid : tool_F_) movers.push_back({&solid, X_WF * solid.shape.X_OS});
+  return movers;
+}
+
+Obstacle CollisionCheck::hit(const Vector6d& q) const {
+  const Obstacle tool = tool_hit(cell_->X_WR * cell_->arm->forward(q));
+  if (tool != Obstacle::kNone) return tool;
+  const std::vector<Placed> movers = robot_at(q);
   for (const Placed& placed : movers) {
-    if (placed.solid->link < 2) continue;  // base and column stand on the table
+    // Base and column stand on the table; the tool has been looked at.
+    if (placed.solid->link < 2 || placed.solid->link == kTool) continue;
     if (const Obstacle obstacle = standing_hit(placed); obstacle != Obstacle::kNone) return obstacle;
     if (placed.solid->link > 2 && heap_hit(placed)) return Obstacle::kHeap;
   }
-  for (const Solid& solid : tool_F_) movers.push_back({&solid, X_WF * solid.shape.X_OS});
   return self_hit(movers) ? Obstacle::kSelf : Obstacle::kNone;
+}
+
+std::vector<Eigen::Vector3d> CollisionCheck::without_robot(const std::vector<Eigen::Vector3d>& points_W,
+                                                           const Vector6d& q, double margin) const {
+  std::vector<Placed> robot = robot_at(q);
+  const Pose X_WF = cell_->X_WR * cell_->arm->forward(q);
+  for (const Solid& lip : lips_F_) robot.push_back({&lip, X_WF * lip.shape.X_OS});
+  std::vector<Eigen::Vector3d> kept;
+  for (const Eigen::Vector3d& p_W : points_W) {
+    const bool own = std::any_of(robot.begin(), robot.end(), [&](const Placed& placed) {
+      const Eigen::Vector3d between = p_W - placed.X_WS.translation();
+      return between.norm() < placed.solid->radius + margin &&
+             signed_distance_S(placed.solid->shape, placed.X_WS.linear().transpose() * between) < margin;
+    });
+    if (!own) kept.push_back(p_W);
+  }
+  return kept;
 }
 
 Obstacle CollisionCheck::path_hit(const JointTrajectory& path, double step) const {

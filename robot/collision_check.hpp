@@ -29,6 +29,9 @@ class CollisionCheck {
   Obstacle tool_hit(const Pose& X_WF) const;
   /// The first obstacle along a trajectory, sampled so that nothing moves more than about `step` in between.
   Obstacle path_hit(const JointTrajectory& path, double step = 0.02) const;
+  /// The points that are not within `margin` of arm, tool or camera at q: a camera sees its own robot too.
+  std::vector<Eigen::Vector3d> without_robot(const std::vector<Eigen::Vector3d>& points_W, const Vector6d& q,
+                                             double margin) const;
   /// Points of a held part against bin, tray and table, deeper than `allowed`.
   Obstacle points_hit(const std::vector<Eigen::Vector3d>& points_W, double allowed) const;
 
@@ -44,6 +47,7 @@ class CollisionCheck {
     const Solid* solid;
     Pose X_WS;
   };
+  std::vector<Placed> robot_at(const Vector6d& q) const;
   Obstacle standing_hit(const Placed& mover) const;
   bool heap_hit(const Placed& mover) const;
   bool self_hit(const std::vector<Placed>& movers) const;

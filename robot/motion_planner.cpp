@@ -51,6 +51,12 @@ JointTrajectory MotionPlanner::straight(const Vector6d& q_from, const Pose& X_WG
   return linear_move(*cell_.arm, q_from, flange_in_base(X_WG_to), cell_.motion);
 }
 
+JointTrajectory MotionPlanner::slowed(const PickTask& task, const JointTrajectory& path) const {
+  if (path.empty()) return path;
+  const Pose X_FA = cell_.gripper->X_FG() * task.X_WG.inverse() * Eigen::Translation3d(task.X_WP * task.center_P);
+  return gentle(*cell_.arm, path, X_FA, config_.acceleration);
+}
+
 double MotionPlanner::rim() const { return (cell_.X_WB * Eigen::Vector3d(0, 0, cell_.bin.inner_size.z())).z(); }
 
 bool MotionPlanner::plan_approach(const PickTask& task, PlannedMotion& out, std::string& why) const {
@@ -110,6 +116,7 @@ bool MotionPlanner::plan_lift(const PickTask& task, PlannedMotion& out, std::str
     why = "lift out of reach";
     return false;
   }
+  out.lift = slowed(task, out.lift);
   if (const Obstacle hit = check_.path_hit(out.lift); hit != Obstacle::kNone) {
     why = in_the_way(hit, "lift");
     return false;
@@ -169,7 +176,7 @@ bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, std::st
       why = in_the_way(hit, "carried part");
       continue;
     }
-    if (place_by(way, carry, out, why)) return true;
+    if (place_by(task, way, carry, out, why)) return true;
     if (++tried == kWays) break;
   }
   return false;
@@ -190,8 +197,8 @@ Obstacle MotionPlanner::carried_hit(const PickTask& task, const JointTrajectory&
   return hit;
 }
 
-bool MotionPlanner::place_by(const WayToPlace& way, const JointTrajectory& carry, PlannedMotion& out,
-                             std::string& why) const {
+bool MotionPlanner::place_by(const PickTask& task, const WayToPlace& way, const JointTrajectory& carry,
+                             PlannedMotion& out, std::string& why) const {
   const JointTrajectory down = straight(way.q_over, way.place.X_WG);
   const JointTrajectory up = down.empty() ? down : straight(down.q.back(), raised(way.place.X_WG, way.place.over));
   if (up.empty()) {
@@ -205,7 +212,7 @@ bool MotionPlanner::place_by(const WayToPlace& way, const JointTrajectory& carry
     why = in_the_way(hit, path == &down ? "release" : path == &carry ? "way to the tray" : "way back");
     return false;
   }
-  out.place = joined(carry, down);
+  out.place = joined(slowed(task, carry), slowed(task, down));
   out.back = joined(up, home);
   out.X_WP_place = way.place.X_WP;
   return true;

@@ -14,11 +14,12 @@ namespace binpick {
 
 /// What shall be taken and put where.
 struct PickTask {
-  Pose X_WG = Pose::Identity();                      ///< tip at believed contact
-  Pose X_WP = Pose::Identity();                      ///< believed part
-  std::vector<Eigen::Vector3d> outline_P;            ///< vertices that bound the part
-  Eigen::Vector2d slot_T = Eigen::Vector2d::Zero();  ///< centre of its place in the tray
-  double layer_height = 0;                           ///< m above the tray's floor: top of what lies below
+  Pose X_WG = Pose::Identity();                        ///< tip at believed contact
+  Pose X_WP = Pose::Identity();                        ///< believed part
+  std::vector<Eigen::Vector3d> outline_P;              ///< vertices that bound the part
+  Eigen::Vector3d center_P = Eigen::Vector3d::Zero();  ///< mass centre
+  Eigen::Vector2d slot_T = Eigen::Vector2d::Zero();    ///< centre of its place in the tray
+  double layer_height = 0;                             ///< m above the tray's floor: top of what lies below
 };
 
 struct PlannedMotion {
@@ -52,11 +53,13 @@ class MotionPlanner {
   bool plan_place(const PickTask& task, PlannedMotion& out, std::string& why) const;
   std::vector<WayToPlace> ways_to_place(const PickTask& task, const Vector6d& q_lifted) const;
   Obstacle carried_hit(const PickTask& task, const JointTrajectory& carry) const;
-  bool place_by(const WayToPlace& way, const JointTrajectory& carry, PlannedMotion& out, std::string& why) const;
+  bool place_by(const PickTask& task, const WayToPlace& way, const JointTrajectory& carry, PlannedMotion& out,
+                std::string& why) const;
   Place place_at(const PickTask& task, double yaw) const;
   std::vector<Vector6d> joints_for(const Pose& X_WG, const Vector6d& q_near) const;
   Pose flange_in_base(const Pose& X_WG) const;
   JointTrajectory straight(const Vector6d& q_from, const Pose& X_WG_to) const;
+  JointTrajectory slowed(const PickTask& task, const JointTrajectory& path) const;
   double rim() const;
 
   const Cell& cell_;

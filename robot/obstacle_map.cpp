@@ -14,6 +14,8 @@ constexpr double kColumn = 0.02;  // m, edge of a look-up column
 constexpr double kVoxel = 0.005;  // m, thinning
 constexpr double kSkin = 0.004;   // m, floor and walls as seen, to which three sigma of the camera are added
 
+constexpr double kOverRim = 0.15;  // m, a heap does not stand higher over the bin's rim
+
 struct Voxel {
   std::array<int, 3> key;
   Eigen::Vector3d point;
@@ -35,7 +37,7 @@ std::vector<Eigen::Vector3d> thinned(std::vector<Voxel>& voxels, int least) {
 /// Inside the bin's opening and clear of floor and walls.
 bool in_bin(const BinSpec& bin, const Eigen::Vector3d& p_B, double skin) {
   return std::abs(p_B.x()) < bin.inner_size.x() / 2 - skin && std::abs(p_B.y()) < bin.inner_size.y() / 2 - skin &&
-         p_B.z() > skin && p_B.z() < bin.inner_size.z() + 0.3;
+         p_B.z() > skin && p_B.z() < bin.inner_size.z() + kOverRim;
 }
 
 }  // namespace

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kOwnTolerance = 0.004;  // m, plus three sigma: a heap point this near an estimate's surface is its own
 
-double own_tolerance(const SceneView& view, const std::vector<Target>&) {
+constexpr double kRobotMargin = 0.025;  // m: seen points this near to arm or tool are the robot itself
+
+double own_tolerance(const SceneView& view) {
   const auto* frame = std::get_if<DepthFrame>(&view.seen);
   return kOwnTolerance + (frame ? 3 * frame->noise.sigma(0.6) : 0);
 }
@@ -41,7 +43,8 @@ void PlanningConfig::visit(ConfigVisitor& v) {
   v.field("press", press, Unit::kLength, "how far the lips are pressed beyond the believed contact");
   v.field("place_height", place_height, Unit::kLength, "part's lowest point above the tray floor at release");
   v.field("min_score", min_score, Unit::kNone, "estimates with a lower score are not picked");
-  v.field("acceleration", acceleration, Unit::kAcceleration, "added to gravity when a site's hold is checked");
+  v.field("acceleration", acceleration, Unit::kAcceleration,
+          "largest acceleration of a held part; added to gravity when a site's hold is checked");
   v.field("safety", safety, Unit::kNone, "load factor of that check");
   v.field("hold_check", hold_check, "false: sites that would peel are tried too, last");
 }
@@ -58,7 +61,7 @@ void PlanningConfig::validate() const {
   need(press >= 0 && press <= 0.05, "press: must lie between 0 and 50 mm");
   need(place_height >= 0 && place_height <= 0.2, "place_height: must lie between 0 and 200 mm");
   need(min_score >= 0 && min_score <= 1, "min_score: must lie between 0 and 1");
-  need(acceleration >= 0 && acceleration <= 100, "acceleration: must lie between 0 and 100 m/s^2");
+  need(acceleration >= 0.1 && acceleration <= 100, "acceleration: must lie between 0.1 and 100 m/s^2");
   need(safety >= 1 && safety <= 10, "safety: must lie between 1 and 10");
 }
 
@@ -95,6 +98,7 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
   task.X_WG = candidate.X_WG;
   task.X_WP = target.X_WP;
   task.outline_P = outlines_P[target.part];
+  task.center_P = parts[target.part].mass.center_P;
   const TraySlot slot = tray_slot(cell.tray.inner_size, parts[target.part].diameter, placed);
   task.slot_T = slot.center_T;
   task.layer_height = slot.layer * height_along(task.outline_P, candidate.site.X_PK.linear().col(2));
@@ -142,9 +146,11 @@ PickPlanner& PickPlanner::operator=(PickPlanner&&) noexcept = default;
 PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed) const {
   const auto start = std::chrono::steady_clock::now();
   PlanResult result;
-  const ObstacleMap heap = perceived_heap(view, X_WC);
+  // The frame was taken at the look pose, where the tool may stand in the picture.
+  const CollisionCheck robot(impl_->cell, 0);
+  const ObstacleMap heap(robot.without_robot(perceived_heap(view, X_WC).points_W(), impl_->cell.q_look, kRobotMargin));
   const std::vector<Target> targets =
-      impl_->finder.find(found, X_WC, heap, own_tolerance(view, {}), impl_->config.min_score);
+      impl_->finder.find(found, X_WC, heap, own_tolerance(view), impl_->config.min_score);
   const int low = static_cast<int>(found.estimates.size() - targets.size());
   if (low > 0) result.rejections["score too low"] = low;
   for (const Target& target : targets) {

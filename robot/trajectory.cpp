@@ -163,6 +163,26 @@ JointTrajectory linear_move(const Arm& arm, const Vector6d& q_from, const Pose& 
   return out;
 }
 
+JointTrajectory gentle(const Arm& arm, const JointTrajectory& path, const Pose& X_FA, double most) {
+  double worst = 0, last_dt = 0;
+  Eigen::Vector3d last_p = Eigen::Vector3d::Zero(), last_v = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < path.q.size(); ++k) {
+    const Eigen::Vector3d p = (arm.forward(path.q[k]) * X_FA).translation();
+    if (k > 0) {
+      const double dt = path.times[k] - path.times[k - 1];
+      const Eigen::Vector3d v = (p - last_p) / dt;
+      worst = std::max(worst, (v - last_v).norm() / ((dt + last_dt) / 2));
+      last_v = v;
+      last_dt = dt;
+    }
+    last_p = p;
+  }
+  JointTrajectory slowed = path;
+  const double stretch = std::sqrt(std::max(1.0, worst / most));  // accelerations fall with the square of the time
+  for (double& t : slowed.times) t *= stretch;
+  return slowed;
+}
+
 JointTrajectory joined(const JointTrajectory& first, const JointTrajectory& second) {
   if (first.empty()) return second;
   JointTrajectory out = first;

@@ -38,6 +38,10 @@ double joint_time(const Arm& arm, const Vector6d& q_from, const Vector6d& q_to, 
 /// Empty when it leaves the workspace, a limit or the branch.
 JointTrajectory linear_move(const Arm& arm, const Vector6d& q_from, const Pose& X_RF_to, const MotionLimits& limits);
 
+/// The same path, slowed evenly until the origin of frame A, fixed to the flange at X_FA, accelerates by no more than
+/// `most` (m/s^2): what is held by friction and vacuum is not thrown off.
+JointTrajectory gentle(const Arm& arm, const JointTrajectory& path, const Pose& X_FA, double most);
+
 /// One after the other.
 JointTrajectory joined(const JointTrajectory& first, const JointTrajectory& second);
 
