@@ -49,7 +49,8 @@ std::string distribution(const std::string& title, const std::string& unit, std:
   if (values.empty()) return "";
   std::sort(values.begin(), values.end());
   const double median = quantile(values, 0.5), p95 = quantile(values, 0.95);
-  const double end = round_up(std::max(1.2 * p95, 1e-9));
+  if (p95 < 1e-6) return "";  // the oracle's: nothing to draw
+  const double end = round_up(1.2 * p95);
   const double left = 44, right = 350, top = 12, bottom = 140;
   const auto x = [&](double value) { return left + (right - left) * std::min(value / end, 1.0); };
   const auto y = [&](double share) { return bottom - (bottom - top) * share; };

@@ -12,7 +12,8 @@ namespace binpick::html {
 /// tick.
 std::string rate_track(const Rate& rate, double reference);
 
-/// Cumulative distribution of `values` (already in `unit`), with its median and 95 % marked. Values must be finite.
+/// Cumulative distribution of `values` (already in `unit`), with its median and 95 % marked. Values must be
+/// finite; empty when there is nothing to draw.
 std::string distribution(const std::string& title, const std::string& unit, std::vector<double> values);
 
 }  // namespace binpick::html

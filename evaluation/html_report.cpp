@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 
 #include "evaluation/html_plots.hpp"
 #include "evaluation/html_style.hpp"
@@ -77,9 +78,12 @@ std::string error_plots(std::span<const TrialRecord> records) {
       }
     }
   }
-  if (translations.empty()) return "";
-  return "<div class=\"plots\"><div class=\"card\">" + html::distribution("translation error", "mm", translations) +
-         "</div><div class=\"card\">" + html::distribution("rotation error", "deg", rotations) + "</div></div>";
+  std::string plots;
+  for (const std::string& plot : {html::distribution("translation error", "mm", translations),
+                                  html::distribution("rotation error", "deg", rotations)}) {
+    if (!plot.empty()) plots += "<div class=\"card\">" + plot + "</div>";
+  }
+  return "<div class=\"plots\">" + plots + "</div>";
 }
 
 std::string stage_table(const CampaignSummary& s) {
@@ -110,9 +114,36 @@ std::string outcome_table(const CampaignSummary& s) {
   return table(rows);
 }
 
+/// What ruled candidates out, over all picks, most frequent first.
+std::string rejection_table(std::span<const TrialRecord> records) {
+  std::map<std::string, long> sums;
+  for (const TrialRecord& record : records) {
+    for (const PickRecord& pick : record.picks) {
+      for (const auto& [reason, count] : pick.rejections) sums[reason] += count;
+    }
+  }
+  if (sums.empty()) return "";
+  std::vector<std::pair<std::string, long>> sorted(sums.begin(), sums.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr std::size_t kShown = 12;
+  std::string rows = head({{"reason", ""}, {"candidates", "n"}});
+  for (std::size_t i = 0; i < std::min(sorted.size(), kShown); ++i) {
+    rows += "<tr>" + cell(sorted[i].first) + cell(std::to_string(sorted[i].second), "n") + "</tr>";
+  }
+  return "<h2>What ruled pick candidates out</h2>" + table(rows);
+}
+
+/// "seed-9" before "seed-10".
+struct ShorterFirst {
+  bool operator()(const std::string& a, const std::string& b) const {
+    return a.size() != b.size() ? a.size() < b.size() : a < b;
+  }
+};
+using Pictures = std::map<std::string, std::vector<std::string>, ShorterFirst>;
+
 /// Pictures by the folder they lie in, in the given order within it. Paths that leave the run folder are left out.
-std::map<std::string, std::vector<std::string>> by_folder(std::span<const std::string> picture_paths) {
-  std::map<std::string, std::vector<std::string>> folders;
+Pictures by_folder(std::span<const std::string> picture_paths) {
+  Pictures folders;
   for (const std::string& path : picture_paths) {
     if (text::relative_url(path).empty()) continue;
     const std::size_t slash = path.find_last_of('/');
@@ -129,8 +160,7 @@ std::string failure_row(const TrialRecord& record, std::size_t index, bool pictu
          "<td><code>binpick trial scenario.yaml --seed " + seed + "</code></td></tr>";
 }
 
-std::string failure_list(std::span<const TrialRecord> records,
-                         const std::map<std::string, std::vector<std::string>>& pictures) {
+std::string failure_list(std::span<const TrialRecord> records, const Pictures& pictures) {
   std::string rows =
       head({{"seed", "n"}, {"pick", "n"}, {"outcome", ""}, {"reason", ""}, {"again, in the run folder", ""}});
   std::size_t count = 0;
@@ -148,17 +178,36 @@ std::string failure_list(std::span<const TrialRecord> records,
          std::to_string(count) + "; picks.csv has them all.</p>";
 }
 
-std::string gallery(const std::map<std::string, std::vector<std::string>>& pictures) {
+std::string figure(const std::string& path, const std::string& raw_caption) {
+  const std::string url = text::html(text::relative_url(path)), caption = text::html(raw_caption);
+  return "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url + "\" alt=\"" + caption +
+         "\"></a><figcaption>" + caption + "</figcaption></figure>";
+}
+
+/// The first heap and the first estimates drawn over it, large.
+std::string opening_pictures(const Pictures& pictures) {
+  const auto first = [&](std::string_view ending) -> std::string {
+    for (const auto& [folder, paths] : pictures) {
+      for (const std::string& path : paths) {
+        if (path.ends_with(ending)) return path;
+      }
+    }
+    return "";
+  };
+  const std::string heap = first("heap.png"), estimates = first("estimates.png");
+  if (heap.empty() || estimates.empty()) return "";
+  return "<div class=\"plots opening\">" + figure(heap, "the heap") +
+         figure(estimates, "estimates over the camera's view") + "</div>";
+}
+
+std::string gallery(const Pictures& pictures) {
   std::string section;
   for (const auto& [folder, paths] : pictures) {
     const std::size_t slash = folder.find_last_of('/');
     const std::string name = slash == std::string::npos ? folder : folder.substr(slash + 1);
     section += "<h3 id=\"" + text::html(name) + "\">" + text::html(name) + "</h3><div class=\"pictures\">";
     for (const std::string& path : paths) {
-      const std::string url = text::html(text::relative_url(path));
-      const std::string caption = text::html(path.substr(folder.empty() ? 0 : folder.size() + 1));
-      section += "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url + "\" alt=\"" + caption +
-                 "\"></a><figcaption>" + caption + "</figcaption></figure>";
+      section += figure(path, path.substr(folder.empty() ? 0 : folder.size() + 1));
     }
     section += "</div>";
   }
@@ -183,13 +232,13 @@ std::string html_report(const CampaignSummary& summary, std::span<const TrialRec
          "img-src 'self' file:; base-uri 'none'; form-action 'none'\">"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" +
          name + " - binpick</title><style>" + html::kStyle + "</style></head><body><main><h1>" + name +
-         "</h1><p class=\"verdict\">" + text::html(text::verdict(summary)) + "</p>" + cards(summary) +
-         "<h2>Errors of right poses (paper: Tables 1 and 2)</h2>" + error_table(summary) + "<p></p>" +
+         "</h1><p class=\"verdict\">" + text::html(text::verdict(summary)) + "</p>" + opening_pictures(pictures) +
+         cards(summary) + "<h2>Errors of right poses (paper: Tables 1 and 2)</h2>" + error_table(summary) + "<p></p>" +
          error_plots(records) + "<h2>Times (paper: Table 4)</h2>" + stage_table(summary) + "<h2>How picks ended</h2>" +
-         outcome_table(summary) + "<h2>Failures</h2>" + failure_list(records, pictures) + gallery(pictures) +
-         "<h2>About the paper's figures</h2>" + slips() + "<p class=\"note\">" + std::to_string(summary.trials) +
-         " trials; scenario " + scenario_hash + "; records " + text::html(summary.records_hash) +
-         ".</p></main></body></html>\n";
+         outcome_table(summary) + "<h2>Failures</h2>" + failure_list(records, pictures) + rejection_table(records) +
+         gallery(pictures) + "<h2>About the paper's figures</h2>" + slips() + "<p class=\"note\">" +
+         std::to_string(summary.trials) + " trials; scenario " + scenario_hash + "; records " +
+         text::html(summary.records_hash) + ".</p></main></body></html>\n";
 }
 
 }  // namespace binpick

@@ -29,9 +29,10 @@ td.n, th.n { text-align: right; white-space: nowrap; }
 td.wide { width: 40%; min-width: 140px; }
 .bar { height: 14px; border-radius: 3px; background: var(--bad); min-width: 2px; }
 .bar.ok { background: var(--good); }
-code { font: 13px/1.4 ui-monospace, monospace; user-select: all; }
+code { font: 13px/1.4 ui-monospace, monospace; user-select: all; white-space: nowrap; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(320px, 1fr)); gap: 14px; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); gap: 12px; }
+.opening { margin: 0 0 24px; align-items: end; }
 figure { margin: 0; }
 img { width: 100%; border-radius: 8px; border: 1px solid var(--line); background: var(--line); }
 a { color: var(--good); }

@@ -105,6 +105,7 @@ TEST(HtmlReport, EveryFailureHasItsReplay) {
   EXPECT_THAT(page, HasSubstr("src=\"artifacts/seed-5001/09_failed.png\""));
   EXPECT_THAT(page, HasSubstr("95.0 % of 20 parts cleared"));
   EXPECT_EQ(count(page, "binpick trial scenario.yaml --seed"), 1u);
+  EXPECT_THAT(page, HasSubstr("<td>rim blocked</td><td class=\"n\">60</td>"));  // 3 in each of 20 picks
 }
 
 TEST(HtmlReport, AsksNobodyForAnything) {
@@ -121,10 +122,15 @@ TEST(HtmlReport, HostileStringsAreEscaped) {
   std::vector<TrialRecord> records = campaign();
   for (TrialRecord& record : records) {
     record.scenario = record.scenario_hash = attack;
-    for (PickRecord& p : record.picks) p.reason = attack;
+    for (PickRecord& p : record.picks) {
+      p.reason = attack;
+      p.rejections = {{attack, 1}};
+    }
   }
   const std::vector<std::string> pictures = {"artifacts/" + attack + "/a.png",
                                              "artifacts/seed-5001/" + attack,
+                                             attack + "heap.png",
+                                             attack + "estimates.png",
                                              "../secret.png",
                                              "/etc/secret.png",
                                              "javascript:alert(1)",
