@@ -84,7 +84,7 @@ struct PickPlanner::Impl {
                                          std::map<std::string, int>& rejections) const;
   PickTask task_of(const PickCandidate& candidate, const Target& target, int placed) const;
 
-  const Cell& cell;
+  Cell cell;
   std::span<const Part> parts;
   PlanningConfig config;
   TargetFinder finder;

@@ -135,8 +135,8 @@ PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& con
     return record;
   }
   const Stopwatch planning;
-  const PlanResult plan = plan_pick(found, seen.view, seen.X_WC_believed, s.cell, context.parts, s.planning,
-                                    count_in(cell_world, &CellWorld::in_tray));
+  const PlanResult plan = context.planner->plan(found, seen.view, seen.X_WC_believed,
+                                               count_in(cell_world, &CellWorld::in_tray));
   record.plan_wall = planning.seconds();
   record.rejections = plan.rejections;
   record.outcome = plan.outcome;

@@ -29,6 +29,7 @@ TrialContext make_trial_context(Scenario& scenario) {
   }
   context.hash = scenario_hash(scenario);
   context.renderer = make_osmesa_renderer();
+  context.planner = std::make_unique<const PickPlanner>(scenario.cell, context.parts, scenario.planning);
   if (scenario.estimator) scenario.estimator->prepare(context.parts);
   return context;
 }

@@ -1,11 +1,12 @@
-// One worker's tools, made once and used for many trials: parts, collision shapes, renderer, prepared estimator. Nothing in
-// it remembers a trial.
+// One worker's tools, made once and used for many trials: parts, collision shapes, renderer, prepared estimator,
+// pick planner. Nothing in it remembers a trial.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "core/part.hpp"
+#include "robot/plan_pick.hpp"
 #include "sim/collision_shape.hpp"
 #include "sim/depth_renderer.hpp"
 #include "trials/scenario.hpp"
@@ -16,6 +17,7 @@ struct TrialContext {
   std::vector<Part> parts;
   std::vector<CollisionShape> shapes;
   std::unique_ptr<DepthRenderer> renderer;
+  std::unique_ptr<const PickPlanner> planner;  ///< knows where the tool fits on the parts
   std::string hash;  ///< scenario_hash
 };
 
