@@ -15,8 +15,9 @@ constexpr double kRobust = 1.5;           // of the scale, Cauchy's constant
 constexpr double kLeastScale = 0.0005;    // m
 constexpr double kPriorLength = 0.02;     // m, damping: directions nothing is known about stay where they are
 constexpr double kPriorAngle = 0.3;       // rad
-constexpr double kStillLength = 5e-5;     // m, a smaller step ends the iteration
-constexpr double kStillAngle = 5e-4;      // rad
+constexpr int kFewestPoints = 6;
+constexpr double kStillLength = 5e-5;  // m, a smaller step ends the iteration
+constexpr double kStillAngle = 5e-4;   // rad
 
 /// Weighted normal equations of twists in P: residual = a . twist.
 struct Equations {
@@ -166,45 +167,80 @@ double accepted_deviation(const Scene& scene, double z, const IcpConfig& config)
   return config.accept + config.accept_sigmas * scene.noise.sigma(z);
 }
 
+namespace {
+
+/// One refinement: the gate shrinks, the outline is drawn anew every second round.
+class Refinement {
+ public:
+  Refinement(const Scene& scene, const SurfaceModel& model, const IcpConfig& config, IcpStage stage)
+      : scene_(scene), model_(model), config_(config), fine_(stage == IcpStage::kFine) {
+    if (!fine_) config_.points /= 2;
+  }
+
+  IcpResult run(const Pose& X_CP) {
+    X_CP_ = X_CP;
+    sigma_ = scene_.sigma(static_cast<float>((X_CP * model_.center().cast<double>()).z()));
+    const float last = std::max(static_cast<float>(config_.least_gate), 3 * sigma_);
+    gate_ = fine_ ? last : std::max(last, static_cast<float>(config_.gate) * 2 * model_.radius());
+    int left = fine_ ? config_.fine_iterations : config_.coarse_iterations;
+    for (int round = 0; assemble(fine_ && config_.silhouette && round % 2 == 0 && left > 0) && left > 0; ++round) {
+      const bool still = move();
+      left = still && gate_ <= last ? 0 : left - 1;  // the last assembly only measures
+      gate_ = std::max(last, 0.75f * gate_);
+    }
+    return result();
+  }
+
+ private:
+  /// The equations at the current pose; false when too little of the scene is near.
+  bool assemble(bool draw) {
+    const Roi roi = roi_of(scene_, model_, X_CP_, config_);
+    const Weighting weighting{gate_, std::max({kLeastScale, static_cast<double>(sigma_), gate_ / 6.0})};
+    equations_ = Equations();
+    add_surface(scene_, model_, X_CP_, roi, weighting, equations_);
+    correlated_ = std::max(1.0, config_.correlated_px / (roi.step * roi.step));
+    if (equations_.points < kFewestPoints) return false;
+    if (draw) outline_ = outline_rows(scene_, model_, X_CP_, config_);
+    for (const OutlineRow& row : outline_) equations_.add(row.a, row.residual, row.weight);
+    return true;
+  }
+
+  /// One Gauss-Newton step; true when it was negligible.
+  bool move() {
+    const Vector6d twist = equations_.information().ldlt().solve(equations_.b);
+    X_CP_ = orthonormalised(X_CP_ * exp_se3(twist));
+    for (OutlineRow& row : outline_) row.residual -= row.a.dot(twist);
+    return twist.head<3>().norm() < kStillLength && twist.tail<3>().norm() < kStillAngle;
+  }
+
+  IcpResult result() const {
+    IcpResult out;
+    out.X_CP = X_CP_;
+    out.points = equations_.points;
+    if (out.points > 0) {
+      out.mean_deviation = equations_.sum_abs / out.points;
+      out.rms = std::sqrt(equations_.sum_squares / out.points);
+    }
+    out.covariance = covariance_of(equations_, correlated_);
+    return out;
+  }
+
+  const Scene& scene_;
+  const SurfaceModel& model_;
+  IcpConfig config_;
+  bool fine_;
+  Pose X_CP_ = Pose::Identity();
+  float sigma_ = 0, gate_ = 0;
+  double correlated_ = 1;
+  Equations equations_;
+  std::vector<OutlineRow> outline_;
+};
+
+}  // namespace
+
 IcpResult refine_pose(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config,
                       IcpStage stage) {
-  IcpResult result;
-  result.X_CP = X_CP;
-  const bool fine = stage == IcpStage::kFine;
-  const int iterations = fine ? config.fine_iterations : config.coarse_iterations;
-  const auto sigma = static_cast<float>(scene.noise.sigma((X_CP * model.center().cast<double>()).z()));
-  const float last = std::max(static_cast<float>(config.least_gate), 3 * sigma);
-  float gate = fine ? last : std::max(last, static_cast<float>(config.gate) * 2 * model.radius());
-  IcpConfig sampling = config;
-  if (!fine) sampling.points /= 2;
-  Equations equations;
-  std::vector<OutlineRow> outline;
-  double correlated = 1;
-  for (int i = 0; i <= iterations; ++i) {
-    const Roi roi = roi_of(scene, model, result.X_CP, sampling);
-    const Weighting weighting{gate, std::max({kLeastScale, static_cast<double>(sigma), gate / 6.0})};
-    equations = Equations();
-    add_surface(scene, model, result.X_CP, roi, weighting, equations);
-    correlated = std::max(1.0, config.correlated_px / (roi.step * roi.step));
-    if (equations.points < 6) break;
-    if (fine && config.silhouette && i % 2 == 0 && i < iterations)
-      outline = outline_rows(scene, model, result.X_CP, config);
-    for (const OutlineRow& row : outline) equations.add(row.a, row.residual, row.weight);
-    if (i == iterations) break;  // the last round only measures
-    const Vector6d twist = equations.information().ldlt().solve(equations.b);
-    result.X_CP = orthonormalised(result.X_CP * exp_se3(twist));
-    for (OutlineRow& row : outline) row.residual -= row.a.dot(twist);
-    const bool still = twist.head<3>().norm() < kStillLength && twist.tail<3>().norm() < kStillAngle;
-    if (still && gate <= last) i = std::max(i, iterations - 1);
-    gate = std::max(last, gate * 0.75f);
-  }
-  result.points = equations.points;
-  if (equations.points > 0) {
-    result.mean_deviation = equations.sum_abs / equations.points;
-    result.rms = std::sqrt(equations.sum_squares / equations.points);
-  }
-  result.covariance = covariance_of(equations, correlated);
-  return result;
+  return Refinement(scene, model, config, stage).run(X_CP);
 }
 
 }  // namespace binpick

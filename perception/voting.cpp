@@ -94,33 +94,30 @@ Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, 
 std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
                                  const VotingConfig& config) {
   BP_CHECK(scene_C.points.empty() || scene_C.has_normals());
-  std::vector<OrientedPoint> points(scene_C.size());
-  std::vector<Eigen::Vector3f> positions(scene_C.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    positions[i] = scene_C.points[i].cast<float>();
-    points[i] = {positions[i], scene_C.normals[i].cast<float>()};
-  }
   std::vector<PoseHypothesis> found;
-  if (points.empty() || table.references().empty()) return found;
+  if (scene_C.points.empty() || table.references().empty()) return found;
+  std::vector<Eigen::Vector3f> positions;
+  for (const Eigen::Vector3d& p : scene_C.points) positions.push_back(p.cast<float>());
+  const auto oriented = [&](std::size_t i) { return OrientedPoint{positions[i], scene_C.normals[i].cast<float>()}; };
   const auto radius = static_cast<float>(config.pair_radius * diameter);
   const PointGrid grid(positions, radius / 3);
-  const PairQuantiser& quantiser = table.quantiser();
   Accumulator accumulator(table.references().size());
-  for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(config.reference_step)) {
+  for (std::size_t i = 0; i < positions.size(); i += static_cast<std::size_t>(config.reference_step)) {
     accumulator.clear();
-    const Eigen::Matrix3f R = frame_with_x(points[i].normal);
-    grid.within(positions[i], radius, [&](std::uint32_t j) {
+    const OrientedPoint reference = oriented(i);
+    const Eigen::Matrix3f R = frame_with_x(reference.normal);
+    grid.within(reference.point, radius, [&](std::uint32_t j) {
       if (j == i) return;
-      const int cell = quantiser.cell(pair_feature(points[i], points[j]));
+      const int cell = table.quantiser().cell(pair_feature(reference, oriented(j)));
       if (cell < 0) return;
       const auto entries = table.entries(cell);
       if (entries.empty() || entries.size() > static_cast<std::size_t>(config.largest_cell)) return;
-      accumulator.add(entries, alpha_turns(R, positions[j] - positions[i]));
+      accumulator.add(entries, alpha_turns(R, positions[j] - reference.point));
     });
     for (const Peak& peak : accumulator.peaks(config)) {
       const double alpha = (peak.cell % kAngles) * (2 * std::numbers::pi / kAngles);
       const OrientedPoint& model = table.references()[static_cast<std::size_t>(peak.cell / kAngles)];
-      found.push_back({pose_from_vote(points[i], model, alpha), static_cast<double>(peak.votes)});
+      found.push_back({pose_from_vote(reference, model, alpha), static_cast<double>(peak.votes)});
     }
   }
   return found;

@@ -1,0 +1,42 @@
+// The search for one kind of part in a scene: votes, clusters, verification, refinement. What a part needs for it is
+// prepared once from its CAD. Frame C for poses, P for the model; metres.
+#pragma once
+
+#include <vector>
+
+#include "core/part.hpp"
+#include "perception/pair_table.hpp"
+#include "perception/ppf_settings.hpp"
+
+namespace binpick {
+
+struct PreparedPart {
+  double diameter = 0;
+  double thinnest = 0;
+  Symmetry symmetry;
+  Eigen::Vector3d center_P = Eigen::Vector3d::Zero();
+  PairTable table, edge_table;
+  SurfaceModel surface;
+};
+
+PreparedPart prepare_part(const Part& part, const PpfSettings& settings);
+
+/// The wanted points of a scene on the part's voxel grid (paper 3.1), and its oriented edge points.
+struct ScenePoints {
+  PointCloud surface_C, edges_C;
+};
+ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const PpfSettings& settings);
+
+/// Poses voted for by surface points and by edges, clustered, the best of each kind (paper 4.1).
+std::vector<PoseHypothesis> voted_poses(const ScenePoints& points, const PreparedPart& part,
+                                        const PpfSettings& settings);
+
+/// Of those, what the scene bears out best, from every region some (paper 4.2).
+std::vector<PoseHypothesis> verified_poses(const Scene& scene, const PreparedPart& part,
+                                           const std::vector<PoseHypothesis>& poses, const PpfSettings& settings);
+
+/// ICP of those, coarse and fine, and the acceptance of the drawn part (paper 4.2). `part` is left 0.
+std::vector<Candidate> refined_poses(const Scene& scene, const PreparedPart& part,
+                                     const std::vector<PoseHypothesis>& poses, const PpfSettings& settings);
+
+}  // namespace binpick
