@@ -159,6 +159,7 @@ std::optional<HoldLimit> CupHold::Impl::violated(const Cup& cup, const CupState&
   const double vacuum_force = full.pull * state.vacuum_share;
   const double kept_on = vacuum_force - state.pull;  // N = V - W
   if (kept_on < 0 || !(full.pull > 0)) return HoldLimit::kPull;
+  if (state.vacuum_share < config.grip_share) return std::nullopt;
   const double shear = state.shear / (full.shear / full.pull * kept_on);
   const double moment = state.moment / (full.moment / full.pull * kept_on);
   const double torsion = state.torsion / (full.torsion / full.pull * kept_on);

@@ -8,7 +8,8 @@
 // read every step about the lip centre and held against the limits of physical_models B1, scaled by p(t) / p_inf = 1 -
 // exp(-t / tau). With V = pull limit x share, W = pull, N = V - W the force that keeps the lip on the part:
 //     W <= V,   shear <= mu N,   moment <= r N (peel),   torsion <= mu r N
-// mu, r and mu r being the ratios of the HoldLimits to their pull. A violation that lasts `break_time` breaks the cup.
+// mu, r and mu r being the ratios of the HoldLimits to their pull. A violation that lasts `break_time` breaks the cup;
+// below `grip_share` of the vacuum only W <= V counts.
 #pragma once
 
 #include <memory>
@@ -24,6 +25,8 @@ namespace binpick {
 enum class HoldLimit { kPull, kShear, kMoment, kTorsion };
 
 struct HoldConfig {
+  /// Share of the vacuum below which a lip may still shift and tilt into place: until then only a pull-off breaks it.
+  double grip_share = 0.5;
   double break_time = 0.010;  ///< s a limit must be exceeded
   double lip_mass = 0.03;     ///< kg, the moving part of the plunger; weightless, as it hangs on the tool
   double lip_stiffness =
