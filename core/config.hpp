@@ -20,7 +20,18 @@
 namespace binpick {
 
 enum class Unit {
-  kNone, kLength, kAngle, kTime, kMass, kDensity, kSpeed, kAngularSpeed, kAcceleration, kPressure, kForce, kStiffness
+  kNone,
+  kLength,
+  kAngle,
+  kTime,
+  kMass,
+  kDensity,
+  kSpeed,
+  kAngularSpeed,
+  kAcceleration,
+  kPressure,
+  kForce,
+  kStiffness
 };
 
 class ConfigVisitor {
@@ -39,22 +50,25 @@ class ConfigVisitor {
   /// A pose: {xyz: [..], rpy: [..]}; either part may be left out.
   virtual void field(const char* key, Pose& value, const char* help) = 0;
   /// One of a closed list; anything else is an error that names the nearest.
-  virtual void choice(const char* key, std::string& value, const std::vector<std::string>& allowed, const char* help) = 0;
+  virtual void choice(const char* key, std::string& value, const std::vector<std::string>& allowed,
+                      const char* help) = 0;
   /// A path: read relative to the file that holds it (becoming absolute), written relative to the file that is written.
   virtual void path(const char* key, std::string& value, const char* help) = 0;
 
   /// A nested mapping.
   template <class Config>
   void section(const char* key, Config& config, const char* help) {
-    section_with(key, [&](ConfigVisitor& v) { config.visit(v); }, help);
+    section_with(
+        key, [&](ConfigVisitor& v) { config.visit(v); }, help);
   }
   virtual void section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) = 0;
 
   /// A list of mappings: while reading, resize(n) is called first.
   template <class Config>
   void list(const char* key, std::vector<Config>& items, const char* help) {
-    list_with(key, items.size(), [&](std::size_t n) { items.resize(n); },
-              [&](std::size_t i, ConfigVisitor& v) { items[i].visit(v); }, help);
+    list_with(
+        key, items.size(), [&](std::size_t n) { items.resize(n); },
+        [&](std::size_t i, ConfigVisitor& v) { items[i].visit(v); }, help);
   }
   virtual void list_with(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
                          const std::function<void(std::size_t, ConfigVisitor&)>& body, const char* help) = 0;

@@ -52,12 +52,13 @@ void write_all(Descriptor& file, const std::string& path, const std::string& byt
 std::string read_file(const std::string& path, std::size_t limit) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) throw AssetError(path + ": cannot open: " + std::strerror(errno));
-  struct stat info{};
+  struct stat info {};
   if (::fstat(file.get(), &info) != 0) throw AssetError(path + ": cannot look at: " + std::strerror(errno));
   if (!S_ISREG(info.st_mode)) throw AssetError(path + ": is not a regular file");
   const auto size = static_cast<std::size_t>(info.st_size);
   if (size > limit)
-    throw AssetError(path + ": " + std::to_string(size) + " bytes are more than the " + std::to_string(limit) + " allowed");
+    throw AssetError(path + ": " + std::to_string(size) + " bytes are more than the " + std::to_string(limit) +
+                     " allowed");
   std::string bytes(size, '\0');
   std::size_t done = 0;
   while (done < size) {

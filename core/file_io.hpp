@@ -1,4 +1,5 @@
-// Files as a whole: read with a size limit, written to a temporary name first so that nothing half-written is ever seen.
+// Files as a whole: read with a size limit, written to a temporary name first so that nothing half-written is ever
+// seen.
 #pragma once
 
 #include <cstddef>

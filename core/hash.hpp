@@ -14,8 +14,8 @@ class Hasher {
  public:
   Hasher& bytes(const void* data, std::size_t size);
   Hasher& add(std::uint64_t value);
-  Hasher& add(double value);              ///< IEEE bits; -0 and 0 are one
-  Hasher& add(std::string_view text);     ///< length first
+  Hasher& add(double value);           ///< IEEE bits; -0 and 0 are one
+  Hasher& add(std::string_view text);  ///< length first
   Hasher& add(const Pose& pose);
   std::uint64_t value() const;
 

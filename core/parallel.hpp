@@ -1,4 +1,5 @@
-// For each index, on a stated number of threads; results are written by index, so the answer does not depend on the number.
+// For each index, on a stated number of threads; results are written by index, so the answer does not depend on the
+// number.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,8 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& rotation) {
   const Eigen::Matrix3d K = skew(rotation);
   if (angle < 1e-6) return Eigen::Matrix3d::Identity() + 0.5 * K + K * K / 6;
   const double a2 = angle * angle;
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * K + (angle - std::sin(angle)) / (a2 * angle) * K * K;
+  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / a2 * K +
+         (angle - std::sin(angle)) / (a2 * angle) * K * K;
 }
 
 }  // namespace
@@ -31,10 +32,10 @@ Pose pose_from(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p_AB) {
 }
 
 Pose pose_from_xyz_rpy(const Eigen::Vector3d& p_AB, const Eigen::Vector3d& rpy) {
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-                                .toRotationMatrix();
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   return pose_from(R, p_AB);
 }
 

@@ -15,8 +15,8 @@ Pose pose_from_xyz_rpy(const Eigen::Vector3d& p_AB, const Eigen::Vector3d& rpy);
 /// Roll, pitch, yaw of a rotation; pitch lies in [-pi/2, pi/2]. At the pole roll is 0.
 Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R_AB);
 
-/// The pose as a configuration file can hold it: roll, pitch, yaw on a grid of 1e-12 rad. Reading what was written gives
-/// the same bits, so that a stored scenario replays exactly.
+/// The pose as a configuration file can hold it: roll, pitch, yaw on a grid of 1e-12 rad. Reading what was written
+/// gives the same bits, so that a stored scenario replays exactly.
 Eigen::Vector3d stored_rpy(const Eigen::Matrix3d& R_AB);
 Pose stored_pose(const Pose& X_AB);
 

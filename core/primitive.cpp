@@ -47,8 +47,8 @@ TriangleMesh sphere_mesh(double radius, int segments) {
     const double polar = std::numbers::pi * r / rings;
     for (Index i = 0; i < n; ++i) {
       const double angle = 2 * std::numbers::pi * i / segments;
-      mesh.vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(angle), std::sin(polar) * std::sin(angle),
-                                                       std::cos(polar)));
+      mesh.vertices.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(angle),
+                                                       std::sin(polar) * std::sin(angle), std::cos(polar)));
     }
   }
   const auto top = static_cast<Index>(mesh.vertices.size());
@@ -78,9 +78,12 @@ Primitive Primitive::sphere(double radius, const Pose& X_OS) { return {Kind::kSp
 TriangleMesh mesh_of(const Primitive& primitive, int segments) {
   const Eigen::Vector3d& s = primitive.size;
   switch (primitive.kind) {
-    case Primitive::Kind::kBox: return transformed(primitive.X_OS, box_mesh(s));
-    case Primitive::Kind::kCylinder: return transformed(primitive.X_OS, cylinder_mesh(s.x(), s.y(), segments));
-    case Primitive::Kind::kSphere: return transformed(primitive.X_OS, sphere_mesh(s.x(), segments));
+    case Primitive::Kind::kBox:
+      return transformed(primitive.X_OS, box_mesh(s));
+    case Primitive::Kind::kCylinder:
+      return transformed(primitive.X_OS, cylinder_mesh(s.x(), s.y(), segments));
+    case Primitive::Kind::kSphere:
+      return transformed(primitive.X_OS, sphere_mesh(s.x(), segments));
   }
   return {};
 }

@@ -12,7 +12,8 @@ namespace binpick {
 struct Primitive {
   enum class Kind { kBox, kCylinder, kSphere };
   Kind kind = Kind::kBox;
-  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< box: full edges; cylinder: radius, length along z, unused; sphere: radius
+  Eigen::Vector3d size =
+      Eigen::Vector3d::Ones();  ///< box: full edges; cylinder: radius, length along z, unused; sphere: radius
   Pose X_OS = Pose::Identity();
 
   static Primitive box(const Eigen::Vector3d& edges, const Pose& X_OS = Pose::Identity());
@@ -20,7 +21,8 @@ struct Primitive {
   static Primitive sphere(double radius, const Pose& X_OS = Pose::Identity());
 };
 
-/// Closed mesh of the primitive in the owner's frame O; round solids get `segments` facets, vertices on the true surface.
+/// Closed mesh of the primitive in the owner's frame O; round solids get `segments` facets, vertices on the true
+/// surface.
 TriangleMesh mesh_of(const Primitive& primitive, int segments = 48);
 
 /// `mesh_B` placed at X_AB.

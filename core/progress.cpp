@@ -8,9 +8,7 @@
 namespace binpick {
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::string remaining(double elapsed, std::size_t done, std::size_t total) {
   if (done == 0) return "?";

@@ -19,7 +19,8 @@ std::uint64_t name_number(std::string_view name) {
 
 r123::Philox4x32::ctr_type philox(std::uint64_t key, std::uint64_t high, std::uint64_t low) {
   const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(low >> 32),
-                                               static_cast<std::uint32_t>(high), static_cast<std::uint32_t>(high >> 32)}};
+                                               static_cast<std::uint32_t>(high),
+                                               static_cast<std::uint32_t>(high >> 32)}};
   const r123::Philox4x32::key_type words = {{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
   return r123::Philox4x32()(counter, words);
 }

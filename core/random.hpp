@@ -1,6 +1,6 @@
-// Randomness with names. A Seed is a 64-bit key; child("drop", k) hashes key, name and index into a new key; an Rng counts
-// from zero under its key (Philox 4x32-10, counter based), so that adding, removing or reordering consumers, loops or
-// threads changes no other stream. <random> distributions, rand and clocks are banned.
+// Randomness with names. A Seed is a 64-bit key; child("drop", k) hashes key, name and index into a new key; an Rng
+// counts from zero under its key (Philox 4x32-10, counter based), so that adding, removing or reordering consumers,
+// loops or threads changes no other stream. <random> distributions, rand and clocks are banned.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +21,13 @@ class Rng {
 
   std::uint32_t next_u32();
   std::uint64_t next_u64();
-  double uniform();                                  ///< [0, 1), 53 bits
-  double uniform(double low, double high);           ///< [low, high)
-  std::uint64_t below(std::uint64_t n);              ///< 0 .. n-1, without bias; n > 0
-  double normal();                                   ///< mean 0, standard deviation 1 (Box-Muller)
+  double uniform();                         ///< [0, 1), 53 bits
+  double uniform(double low, double high);  ///< [low, high)
+  std::uint64_t below(std::uint64_t n);     ///< 0 .. n-1, without bias; n > 0
+  double normal();                          ///< mean 0, standard deviation 1 (Box-Muller)
   double normal(double mean, double sigma);
-  Eigen::Vector3d unit_vector();                     ///< uniform on the sphere
-  Eigen::Quaterniond rotation();                     ///< uniform on SO(3) (Shoemake)
+  Eigen::Vector3d unit_vector();  ///< uniform on the sphere
+  Eigen::Quaterniond rotation();  ///< uniform on SO(3) (Shoemake)
 
   /// Fisher-Yates.
   template <class T>

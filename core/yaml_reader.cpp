@@ -2,8 +2,8 @@
 
 #include <yaml-cpp/eventhandler.h>
 
-#include <charconv>
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <sstream>
 
@@ -33,8 +33,8 @@ void check_node(const YAML::Node& node, const YamlSource& source, int& budget) {
   }
 }
 
-// Anchors and aliases make a document of 400 bytes unfold into billions of values: the event stream shows them before any
-// tree is walked.
+// Anchors and aliases make a document of 400 bytes unfold into billions of values: the event stream shows them before
+// any tree is walked.
 class AnchorCheck : public YAML::EventHandler {
  public:
   explicit AnchorCheck(const YamlSource& source) : source_(source) {}
@@ -45,11 +45,13 @@ class AnchorCheck : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string&) override {
     check(mark, anchor);
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
     check(mark, anchor);
   }
   void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
     check(mark, anchor);
   }
   void OnMapEnd() override {}
@@ -79,7 +81,8 @@ YAML::Node parse_strictly(const std::string& text, const YamlSource& source) {
     return documents[0];
   } catch (const YAML::Exception& error) {
     std::string message = error.msg;  // may quote what it met, a line end included
-    std::replace_if(message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
     throw SpecError(place(source, error.mark) + ": " + message);
   }
 }
@@ -159,10 +162,13 @@ void YamlReader::field(const char* key, std::vector<double>& value, Unit unit, c
 
 void YamlReader::field(const char* key, Pose& value, const char* help) {
   Eigen::Vector3d xyz = value.translation(), rpy = rpy_of(value.linear());
-  section_with(key, [&](ConfigVisitor& v) {
-    v.field("xyz", xyz, Unit::kLength, "position");
-    v.field("rpy", rpy, Unit::kAngle, "roll, pitch, yaw");
-  }, help);
+  section_with(
+      key,
+      [&](ConfigVisitor& v) {
+        v.field("xyz", xyz, Unit::kLength, "position");
+        v.field("rpy", rpy, Unit::kAngle, "roll, pitch, yaw");
+      },
+      help);
   value = stored_pose(pose_from_xyz_rpy(xyz, rpy));
 }
 
@@ -175,7 +181,8 @@ void YamlReader::choice(const char* key, std::string& value, const std::vector<s
     for (const std::string& name : allowed) all += (all.empty() ? "" : ", ") + name;
     const std::string near = nearest_name(text, allowed);
     fail_at(node.Mark(), key,
-            "'" + text + "' is not known" + (near.empty() ? "" : ", did you mean " + near + "?") + " (one of: " + all + ")");
+            "'" + text + "' is not known" + (near.empty() ? "" : ", did you mean " + near + "?") + " (one of: " + all +
+                ")");
   }
   value = text;
 }

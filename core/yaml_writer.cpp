@@ -9,18 +9,30 @@ namespace {
 
 const char* si_name(Unit unit) {
   switch (unit) {
-    case Unit::kNone: return "";
-    case Unit::kLength: return "m";
-    case Unit::kAngle: return "rad";
-    case Unit::kTime: return "s";
-    case Unit::kMass: return "kg";
-    case Unit::kDensity: return "kg/m^3";
-    case Unit::kSpeed: return "m/s";
-    case Unit::kAngularSpeed: return "rad/s";
-    case Unit::kAcceleration: return "m/s^2";
-    case Unit::kPressure: return "Pa";
-    case Unit::kForce: return "N";
-    case Unit::kStiffness: return "N/m";
+    case Unit::kNone:
+      return "";
+    case Unit::kLength:
+      return "m";
+    case Unit::kAngle:
+      return "rad";
+    case Unit::kTime:
+      return "s";
+    case Unit::kMass:
+      return "kg";
+    case Unit::kDensity:
+      return "kg/m^3";
+    case Unit::kSpeed:
+      return "m/s";
+    case Unit::kAngularSpeed:
+      return "rad/s";
+    case Unit::kAcceleration:
+      return "m/s^2";
+    case Unit::kPressure:
+      return "Pa";
+    case Unit::kForce:
+      return "N";
+    case Unit::kStiffness:
+      return "N/m";
   }
   return "";
 }
@@ -96,7 +108,9 @@ void YamlWriter::list_with(const char* key, std::size_t size, const std::functio
   out_ << YAML::EndSeq;
 }
 
-std::string ConfigDescriber::text() const { return "| key | default | unit | meaning |\n| --- | --- | --- | --- |\n" + rows_; }
+std::string ConfigDescriber::text() const {
+  return "| key | default | unit | meaning |\n| --- | --- | --- | --- |\n" + rows_;
+}
 
 void ConfigDescriber::row(const char* key, const std::string& value, const char* unit, const char* help) {
   rows_ += "| `" + prefix_ + key + "` | " + value + " | " + unit + " | " + help + " |\n";
@@ -104,7 +118,9 @@ void ConfigDescriber::row(const char* key, const std::string& value, const char*
 void ConfigDescriber::field(const char* key, double& value, Unit unit, const char* help) {
   row(key, format_double(value), si_name(unit), help);
 }
-void ConfigDescriber::field(const char* key, int& value, const char* help) { row(key, std::to_string(value), "", help); }
+void ConfigDescriber::field(const char* key, int& value, const char* help) {
+  row(key, std::to_string(value), "", help);
+}
 void ConfigDescriber::field(const char* key, bool& value, const char* help) {
   row(key, value ? "true" : "false", "", help);
 }

@@ -26,8 +26,8 @@
 #include <numbers>
 #include <vector>
 
-#include "tools/cad_dimensions.hpp"
 #include "core/error.hpp"
+#include "tools/cad_dimensions.hpp"
 
 namespace binpick {
 namespace {

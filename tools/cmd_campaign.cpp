@@ -38,7 +38,8 @@ std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text) {
     return !part.empty() && error == std::errc() && stop == part.data() + part.size();
   };
   const std::string_view view = text;
-  if (colon == std::string::npos || !read(view.substr(0, colon), first) || !read(view.substr(colon + 1), end) || end <= first)
+  if (colon == std::string::npos || !read(view.substr(0, colon), first) || !read(view.substr(colon + 1), end) ||
+      end <= first)
     throw SpecError("--seeds '" + text + "': must be A:B with A < B, meaning the seeds A to B-1");
   if (end - first > 1000000) throw SpecError("--seeds '" + text + "': more than a million trials in one campaign");
   return {first, end};

@@ -12,7 +12,8 @@ namespace binpick {
 Action add_estimate(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("estimate", "poses in a recorded or real depth frame (request.yaml + depth.tiff)");
+  CLI::App* command =
+      app.add_subcommand("estimate", "poses in a recorded or real depth frame (request.yaml + depth.tiff)");
   command->add_option("folder", *folder, "folder with request.yaml and depth.tiff")->required();
   command->add_option("--out", *out, "write the CSV here instead of to standard output");
   return [folder, out] {

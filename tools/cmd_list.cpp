@@ -17,7 +17,8 @@ void print_registry(const char* title, const Registry& registry) {
   std::cout << "# " << title << "\n\n";
   for (const auto& entry : registry) {
     const auto made = entry.make();
-    std::cout << "## " << entry.name << "\n" << entry.help << "\n\n"
+    std::cout << "## " << entry.name << "\n"
+              << entry.help << "\n\n"
               << describe_config([&](ConfigVisitor& v) { made->visit(v); }) << "\n";
   }
 }

@@ -1,4 +1,5 @@
-// binpick report RUN: writes RUN/report.html, results.md, picks.csv and summary.json from the records, prints the table.
+// binpick report RUN: writes RUN/report.html, results.md, picks.csv and summary.json from the records, prints the
+// table.
 
 #include <filesystem>
 #include <fstream>

@@ -5,12 +5,12 @@
 #include <exception>
 #include <string>
 
-#include "tools/cad_dimensions.hpp"
-#include "tools/cad_pieces.hpp"
-#include "tools/cad_shapes.hpp"
 #include "core/file_io.hpp"
 #include "core/mesh_io.hpp"
 #include "core/quantity.hpp"
+#include "tools/cad_dimensions.hpp"
+#include "tools/cad_pieces.hpp"
+#include "tools/cad_shapes.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@ cv::Mat view_of(Image<Rgb>& image) { return {image.height(), image.width(), CV_8
 
 // Calm, well separated tints, by rank.
 cv::Scalar tint(std::size_t rank) {
-  static const cv::Scalar kTints[] = {{46, 204, 113}, {52, 152, 219}, {241, 196, 15}, {231, 76, 60}, {155, 89, 182},
+  static const cv::Scalar kTints[] = {{46, 204, 113}, {52, 152, 219}, {241, 196, 15}, {231, 76, 60},  {155, 89, 182},
                                       {26, 188, 156}, {230, 126, 34}, {236, 64, 122}, {124, 179, 66}, {121, 134, 203}};
   return kTints[rank % std::size(kTints)];
 }
@@ -52,7 +52,8 @@ cv::Point centre_of(const Image<std::int32_t>& ids, std::int32_t id) {
 // From beside and above the bin, looking at its middle.
 Pose bystander(const Cell& cell) {
   const Eigen::Vector3d target = cell.X_WB * Eigen::Vector3d(0, 0, 0.3 * cell.bin.inner_size.z());
-  const Eigen::Vector3d eye = target + 1.9 * cell.bin.inner_size.head<2>().maxCoeff() * Eigen::Vector3d(0.55, -0.55, 1.25);
+  const Eigen::Vector3d eye =
+      target + 1.9 * cell.bin.inner_size.head<2>().maxCoeff() * Eigen::Vector3d(0.55, -0.55, 1.25);
   const Eigen::Vector3d z = (target - eye).normalized(), x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d R;
   R << x, z.cross(x), z;
@@ -74,7 +75,8 @@ Image<Rgb> depth_picture(const DepthFrame& frame) {
   cv::Mat grey(picture.height(), picture.width(), CV_8UC1, cv::Scalar(0)), colours;
   for (std::size_t i = 0; i < frame.depth.size(); ++i)
     if (std::isfinite(frame.depth[i]))
-      grey.data[i] = static_cast<std::uint8_t>(std::clamp((far - frame.depth[i]) / std::max(far - near, 1e-6f), 0.f, 1.f) * 255);
+      grey.data[i] =
+          static_cast<std::uint8_t>(std::clamp((far - frame.depth[i]) / std::max(far - near, 1e-6f), 0.f, 1.f) * 255);
   cv::applyColorMap(grey, colours, cv::COLORMAP_TURBO);
   for (std::size_t i = 0; i < picture.size(); ++i) {
     const auto* bgr = colours.data + 3 * i;

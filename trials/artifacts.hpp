@@ -1,5 +1,5 @@
-// Pictures of a trial: the heap from the side, the depth as the camera saw it, the estimates drawn over the scene, the cup
-// holding the part. They are made on the way and change nothing.
+// Pictures of a trial: the heap from the side, the depth as the camera saw it, the estimates drawn over the scene, the
+// cup holding the part. They are made on the way and change nothing.
 #pragma once
 
 #include <string>

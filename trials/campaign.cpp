@@ -79,8 +79,8 @@ class Coordinator {
     if (std::filesystem::exists(options_.out + "/records"))
       for (const TrialRecord& record : read_records(options_.out)) {
         if (record.scenario_hash != hash_)
-          throw SpecError(options_.out + ": holds records of another scenario (" + record.scenario_hash + ", not " + hash_ +
-                          "): choose another --out");
+          throw SpecError(options_.out + ": holds records of another scenario (" + record.scenario_hash + ", not " +
+                          hash_ + "): choose another --out");
         done.insert(record.seed.key);
       }
     for (std::uint64_t seed = options_.first_seed; seed < options_.end_seed; ++seed)

@@ -7,9 +7,9 @@ namespace binpick {
 
 std::string environment_json(const std::string& renderer);
 
-/// The libraries' hidden processor dispatch (libm's FMA variants, the software renderer's instruction sets) changes last
-/// bits from machine to machine. It can only be pinned before a program starts: when the pins are not in place, sets them
-/// and starts this program anew with the same arguments. Returns when they are.
+/// The libraries' hidden processor dispatch (libm's FMA variants, the software renderer's instruction sets) changes
+/// last bits from machine to machine. It can only be pinned before a program starts: when the pins are not in place,
+/// sets them and starts this program anew with the same arguments. Returns when they are.
 void pin_environment(char** argv);
 
 }  // namespace binpick

@@ -25,7 +25,8 @@ EstimateResult oracle_estimate(const GroundTruth& truth, std::span<const Part> p
     if (instance.visible_fraction < config.min_visible) continue;
     Rng rng = seed.child("oracle", instance.body).rng();
     Vector6d disturbance;
-    for (int i = 0; i < 6; ++i) disturbance[i] = rng.normal(0, i < 3 ? config.translation_error : config.rotation_error);
+    for (int i = 0; i < 6; ++i)
+      disturbance[i] = rng.normal(0, i < 3 ? config.translation_error : config.rotation_error);
     // The error acts at the part's middle: about the CAD origin, a rotation error would move a part drawn far from it.
     const Pose X_PM(Eigen::Translation3d(parts[instance.part].box_center_P));
     PoseEstimate estimate;

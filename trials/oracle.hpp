@@ -1,5 +1,5 @@
-// The oracle: estimates made from the truth, disturbed by a stated error. It bounds what any estimator can reach, proves the
-// rest of the loop, and is the only estimator that reads truth. `estimator: {type: oracle, ..}`.
+// The oracle: estimates made from the truth, disturbed by a stated error. It bounds what any estimator can reach,
+// proves the rest of the loop, and is the only estimator that reads truth. `estimator: {type: oracle, ..}`.
 #pragma once
 
 #include <span>
@@ -13,9 +13,9 @@
 namespace binpick {
 
 struct OracleConfig {
-  double translation_error = 0;      ///< m, standard deviation per axis of C
-  double rotation_error = 0;         ///< rad, standard deviation per axis
-  double min_visible = 0.3;          ///< instances seen less are not reported
+  double translation_error = 0;  ///< m, standard deviation per axis of C
+  double rotation_error = 0;     ///< rad, standard deviation per axis
+  double min_visible = 0.3;      ///< instances seen less are not reported
   void visit(ConfigVisitor& v);
   void validate() const;
 };

@@ -27,8 +27,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   if (pid_ == 0) {
     ::dup2(in[0], STDIN_FILENO);
     ::dup2(out[1], STDOUT_FILENO);
-    ::signal(SIGINT, SIG_IGN);                // an interrupted campaign lets its workers finish
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);       // and a killed one leaves none behind
+    ::signal(SIGINT, SIG_IGN);           // an interrupted campaign lets its workers finish
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // and a killed one leaves none behind
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

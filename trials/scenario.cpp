@@ -51,25 +51,31 @@ std::vector<std::string> estimator_choices() {
 
 void visit_sensor(ConfigVisitor& v, Scenario& s) {
   if (v.reading()) s.sensor = nullptr;
-  v.section_with("sensor", [&](ConfigVisitor& in) {
-    in.choice("type", s.sensor_type, sensor_names(), "sensor model");
-    if (!s.sensor) s.sensor = make_sensor(s.sensor_type);
-    s.sensor->visit(in);
-  }, "the depth camera's model");
+  v.section_with(
+      "sensor",
+      [&](ConfigVisitor& in) {
+        in.choice("type", s.sensor_type, sensor_names(), "sensor model");
+        if (!s.sensor) s.sensor = make_sensor(s.sensor_type);
+        s.sensor->visit(in);
+      },
+      "the depth camera's model");
   if (!s.sensor) s.sensor = make_sensor(s.sensor_type);
 }
 
 void visit_estimator(ConfigVisitor& v, Scenario& s) {
   if (v.reading()) s.estimator = nullptr;
-  v.section_with("estimator", [&](ConfigVisitor& in) {
-    in.choice("type", s.estimator_type, estimator_choices(), "pose estimator");
-    if (s.estimator_type == "oracle") {
-      s.oracle.visit(in);
-    } else {
-      if (!s.estimator) s.estimator = make_estimator(s.estimator_type);
-      s.estimator->visit(in);
-    }
-  }, "the pose estimator");
+  v.section_with(
+      "estimator",
+      [&](ConfigVisitor& in) {
+        in.choice("type", s.estimator_type, estimator_choices(), "pose estimator");
+        if (s.estimator_type == "oracle") {
+          s.oracle.visit(in);
+        } else {
+          if (!s.estimator) s.estimator = make_estimator(s.estimator_type);
+          s.estimator->visit(in);
+        }
+      },
+      "the pose estimator");
   if (!s.estimator && s.estimator_type != "oracle") s.estimator = make_estimator(s.estimator_type);
 }
 

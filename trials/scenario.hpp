@@ -1,5 +1,5 @@
-// A scenario: one YAML file = the configuration of every stage. Expanded, validated, hashed. A trial is a pure function of
-// (scenario, seed).
+// A scenario: one YAML file = the configuration of every stage. Expanded, validated, hashed. A trial is a pure function
+// of (scenario, seed).
 #pragma once
 
 #include <memory>
@@ -45,8 +45,8 @@ struct Scenario {
   Cell cell;
   std::string sensor_type = "disparity";
   std::shared_ptr<SensorModel> sensor;
-  std::string estimator_type = "paper_ppf";       ///< a name of the estimator registry, or `oracle`
-  std::shared_ptr<PoseEstimator> estimator;       ///< not prepared; null for the oracle
+  std::string estimator_type = "paper_ppf";  ///< a name of the estimator registry, or `oracle`
+  std::shared_ptr<PoseEstimator> estimator;  ///< not prepared; null for the oracle
   OracleConfig oracle;
   PlanningConfig planning;
   ExecutionConfig execution;

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "core/hash.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "sim/depth_sensor.hpp"
 
 namespace binpick {
@@ -40,8 +40,8 @@ GroundTruth truth_of(const CellWorld& cell_world, const Capture& capture, const 
   for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
     if (!cell_world.in_bin(i)) continue;
     const Visibility& visibility = capture.visibility[i];
-    truth.instances.push_back({heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), visibility.fraction(),
-                               visibility.visible_pixels});
+    truth.instances.push_back(
+        {heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), visibility.fraction(), visibility.visible_pixels});
   }
   return truth;
 }
@@ -123,7 +123,7 @@ PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& con
   const EstimateResult found = estimate(s, context, seen, estimator_seed);
   record.wall = found.wall;
   record.estimates_hash = estimates_hash(found);
-  record.check = check_poses(found, seen.X_WC_believed, seen.truth, context.parts);  // before the arm moves
+  record.check = context.checker->check(found, seen.X_WC_believed, seen.truth);  // before the arm moves
   if (pictures) {
     pictures->look(pick, *context.renderer, cell_world, std::get<DepthFrame>(seen.view.seen), found);
     if (s.estimator) pictures->frame(pick, frame_request(s, estimator_seed), seen.view, found);
@@ -135,8 +135,8 @@ PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& con
     return record;
   }
   const Stopwatch planning;
-  const PlanResult plan = context.planner->plan(found, seen.view, seen.X_WC_believed,
-                                               count_in(cell_world, &CellWorld::in_tray));
+  const PlanResult plan =
+      context.planner->plan(found, seen.view, seen.X_WC_believed, count_in(cell_world, &CellWorld::in_tray));
   record.plan_wall = planning.seconds();
   record.rejections = plan.rejections;
   record.outcome = plan.outcome;
@@ -152,8 +152,8 @@ PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& con
   return record;
 }
 
-void pick_until_done(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, TrialPictures* pictures,
-                     TrialRecord& record) {
+void pick_until_done(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed,
+                     TrialPictures* pictures, TrialRecord& record) {
   int failures = 0;
   for (int pick = 0; pick < s.trial.max_picks && failures < s.trial.failures_in_a_row; ++pick) {
     if (count_in(cell_world, &CellWorld::in_bin) == 0) break;

@@ -13,9 +13,9 @@ void check_fits(const Part& part, const BinSpec& bin) {
   Eigen::Vector2d floor = bin.inner_size.head<2>();
   std::sort(floor.data(), floor.data() + 2);
   if (extent[1] >= floor[0] || extent[2] >= floor.norm())
-    throw SpecError("cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " + format_double(floor[0]) +
-                    " m is smaller than the part " + part.name + " (" + format_double(extent[2]) + " x " +
-                    format_double(extent[1]) + " m)");
+    throw SpecError("cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " +
+                    format_double(floor[0]) + " m is smaller than the part " + part.name + " (" +
+                    format_double(extent[2]) + " x " + format_double(extent[1]) + " m)");
 }
 
 }  // namespace
@@ -30,6 +30,7 @@ TrialContext make_trial_context(Scenario& scenario) {
   context.hash = scenario_hash(scenario);
   context.renderer = make_osmesa_renderer();
   context.planner = std::make_unique<const PickPlanner>(scenario.cell, context.parts, scenario.planning);
+  context.checker = std::make_unique<const PoseChecker>(context.parts);
   if (scenario.estimator) scenario.estimator->prepare(context.parts);
   return context;
 }

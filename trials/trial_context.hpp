@@ -1,11 +1,12 @@
 // One worker's tools, made once and used for many trials: parts, collision shapes, renderer, prepared estimator,
-// pick planner. Nothing in it remembers a trial.
+// pick planner, pose checker. Nothing in it remembers a trial.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "core/part.hpp"
+#include "evaluation/matching.hpp"
 #include "robot/plan_pick.hpp"
 #include "sim/collision_shape.hpp"
 #include "sim/depth_renderer.hpp"
@@ -18,10 +19,12 @@ struct TrialContext {
   std::vector<CollisionShape> shapes;
   std::unique_ptr<DepthRenderer> renderer;
   std::unique_ptr<const PickPlanner> planner;  ///< knows where the tool fits on the parts
-  std::string hash;  ///< scenario_hash
+  std::unique_ptr<const PoseChecker> checker;  ///< the parts prepared for scoring
+  std::string hash;                            ///< scenario_hash
 };
 
-/// Loads every asset, checks that the parts fit the bin, prepares the scenario's estimator. Throws SpecError, AssetError.
+/// Loads every asset, checks that the parts fit the bin, prepares the scenario's estimator. The scenario must outlive
+/// the context and stay where it is: the planner refers to its cell. Throws SpecError, AssetError.
 TrialContext make_trial_context(Scenario& scenario);
 
 }  // namespace binpick

@@ -18,7 +18,8 @@ void run_worker(const WorkerOptions& options, std::istream& seeds, std::ostream&
   for (std::uint64_t number = 0; seeds >> number;) {
     std::unique_ptr<TrialPictures> pictures;
     if (!options.artifacts.empty())
-      pictures = std::make_unique<TrialPictures>(options.artifacts + "/seed-" + std::to_string(number), options.pictured);
+      pictures =
+          std::make_unique<TrialPictures>(options.artifacts + "/seed-" + std::to_string(number), options.pictured);
     records << to_json_line(run_trial(scenario, Seed{number}, context, pictures.get())) << std::endl;
   }
 }

@@ -1,5 +1,5 @@
-// One worker process: seeds come in on standard input, one a line; records go out on standard output, one a line. The first
-// line out says that the scene is loaded: {"ready":true,"scenario_hash":..,"renderer":..}.
+// One worker process: seeds come in on standard input, one a line; records go out on standard output, one a line. The
+// first line out says that the scene is loaded: {"ready":true,"scenario_hash":..,"renderer":..}.
 #pragma once
 
 #include <iosfwd>

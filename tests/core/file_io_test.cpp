@@ -2,7 +2,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/mesh_properties.hpp"
 #include "core/parallel.hpp"
 #include "core/primitive.hpp"
-#include "core/mesh_properties.hpp"
 
 namespace binpick {
 namespace {

@@ -18,10 +18,12 @@ Pose random_pose(Rng& rng) {
 
 TEST(Pose, RollPitchYawOfKnownTurns) {
   // Yaw of 90 degrees carries x to y; roll of 90 degrees carries y to z.
-  EXPECT_NEAR((pose_from_xyz_rpy({1, 2, 3}, {0, 0, kPi / 2}) * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(),
-              0, 1e-15);
-  EXPECT_NEAR((pose_from_xyz_rpy({0, 0, 0}, {kPi / 2, 0, 0}) * Eigen::Vector3d(0, 1, 0) - Eigen::Vector3d(0, 0, 1)).norm(),
-              0, 1e-15);
+  EXPECT_NEAR(
+      (pose_from_xyz_rpy({1, 2, 3}, {0, 0, kPi / 2}) * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 0,
+      1e-15);
+  EXPECT_NEAR(
+      (pose_from_xyz_rpy({0, 0, 0}, {kPi / 2, 0, 0}) * Eigen::Vector3d(0, 1, 0) - Eigen::Vector3d(0, 0, 1)).norm(), 0,
+      1e-15);
 }
 
 TEST(Pose, RollPitchYawRoundTrip) {

@@ -112,14 +112,13 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCase{"size: [1, 2]\n", {":1: size", "three numbers, has 2"}}, BadCase{"size: 4\n", {"list"}},
                     BadCase{"drop: 4\n", {"drop", "mapping"}}, BadCase{"items: {a: 1}\n", {"list"}},
                     BadCase{"items: [3]\n", {"mapping"}}, BadCase{"count: [1]\n", {"single value"}},
-                    BadCase{"file: \"\"\n", {"file", "empty"}}, BadCase{"", {"empty"}}, BadCase{"- 1\n", {"key: value"}},
-                    BadCase{"count: 1\n---\ncount: 2\n", {"more than one document"}},
+                    BadCase{"file: \"\"\n", {"file", "empty"}}, BadCase{"", {"empty"}},
+                    BadCase{"- 1\n", {"key: value"}}, BadCase{"count: 1\n---\ncount: 2\n", {"more than one document"}},
                     BadCase{"a: &x [1]\nb: *x\n", {":1", "anchors"}}, BadCase{"count: [\n", {"scene.yaml"}},
-                    BadCase{"\tcount: 1\n", {"scene.yaml:1"}}, BadCase{"pose: {xyz: [a, 0, 0]}\n", {"pose.xyz", "'a'"}}));
+                    BadCase{"\tcount: 1\n", {"scene.yaml:1"}},
+                    BadCase{"pose: {xyz: [a, 0, 0]}\n", {"pose.xyz", "'a'"}}));
 
-TEST(Yaml, NestedTooDeepIsRefused) {
-  EXPECT_THAT(error_of("a: " + std::string(3000, '[')), HasSubstr("scene.yaml"));
-}
+TEST(Yaml, NestedTooDeepIsRefused) { EXPECT_THAT(error_of("a: " + std::string(3000, '[')), HasSubstr("scene.yaml")); }
 
 TEST(Yaml, MissingFileIsNamed) {
   try {

@@ -90,7 +90,8 @@ TEST(Layering, RoomsIncludeOnlyWhatTheTableAllows) {
 
 TEST(Layering, TruthNeverReachesPerceptionOrRobot) {
   for (const std::string room : {"perception", "robot"})
-    for (const Line& line : lines_of(room)) EXPECT_NE(included(line.text, '"'), "core/ground_truth.hpp") << line.where();
+    for (const Line& line : lines_of(room))
+      EXPECT_NE(included(line.text, '"'), "core/ground_truth.hpp") << line.where();
 }
 
 TEST(Layering, ThirdPartiesLiveInTheirRooms) {
@@ -119,7 +120,8 @@ TEST(Layering, PublicHeadersShowOnlyEigenAndTheStandardLibrary) {
 }
 
 TEST(House, BannedSourcesOfChance) {
-  const std::regex banned(R"(#include <random>|\bstd::rand\b|\bsrand\(|std::random_device|std::shuffle|unordered_(map|set)<)");
+  const std::regex banned(
+      R"(#include <random>|\bstd::rand\b|\bsrand\(|std::random_device|std::shuffle|unordered_(map|set)<)");
   for (const auto& [room, unused] : kMayInclude)
     for (const Line& line : lines_of(room))
       EXPECT_FALSE(line.text.find("//") == std::string::npos && std::regex_search(line.text, banned))

@@ -59,7 +59,8 @@ TEST_P(BadSceneTest, IsOneLineExitTwoAndNothingWritten) {
   write_file(folder_.path("scene.yaml"), GetParam().text);
   for (const std::string command : {"trial", "campaign"}) {
     const std::string seeds = command == "trial" ? " --seed 1" : " --seeds 1:3";
-    const ProgramRun run = run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " + folder_.path("run"));
+    const ProgramRun run =
+        run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " + folder_.path("run"));
     EXPECT_EQ(run.code, 2) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     for (const char* part : GetParam().said) EXPECT_THAT(run.err, HasSubstr(part));
@@ -128,9 +129,9 @@ class Storage : public testing::Test {
 TEST_F(Storage, AFullDiskEndsWithSix) {
   for (const std::string command : {"trial", "campaign"}) {
     const std::string seeds = command == "trial" ? " --seed 1" : " --seeds 1:3";
-    const ProgramRun run = run_program(
-        command + " " + folder_.path("scene.yaml") + seeds + " --out " + folder_.path("run_" + command) + " 2>&1 | cat >&2; exit ${PIPESTATUS[0]}",
-        "ulimit -f 0");
+    const ProgramRun run = run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " +
+                                           folder_.path("run_" + command) + " 2>&1 | cat >&2; exit ${PIPESTATUS[0]}",
+                                       "ulimit -f 0");
     EXPECT_EQ(run.code, 6) << command;
   }
 }
@@ -140,9 +141,11 @@ TEST_F(Storage, AFullDeviceOnStandardOutputEndsWithSix) {
 }
 
 TEST_F(Storage, AFolderThatCannotBeMadeEndsWithSix) {
-  EXPECT_EQ(run_program("trial " + folder_.path("scene.yaml") + " --seed 1 --out " + folder_.path("box.stl/run")).code, 6);
-  EXPECT_EQ(run_program("campaign " + folder_.path("scene.yaml") + " --seeds 1:2 --out " + folder_.path("box.stl/run")).code,
+  EXPECT_EQ(run_program("trial " + folder_.path("scene.yaml") + " --seed 1 --out " + folder_.path("box.stl/run")).code,
             6);
+  EXPECT_EQ(
+      run_program("campaign " + folder_.path("scene.yaml") + " --seeds 1:2 --out " + folder_.path("box.stl/run")).code,
+      6);
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ using nlohmann::json;
 const std::string kRoot = BINPICK_SOURCE_DIR;
 
 std::string small_scene(const TemporaryFolder& folder, const std::string& estimator) {
-  write_file(folder.path("scene.yaml"), "name: small\npart: " + kRoot + "/assets/parts/bearing_6914/part.yaml\ncount: 4\ncell: " +
-                                            kRoot + "/assets/cells/mz07_three_cups.yaml\nestimator: {type: " + estimator +
-                                            "}\ntrial: {max_picks: 2}\n");
+  write_file(folder.path("scene.yaml"),
+             "name: small\npart: " + kRoot + "/assets/parts/bearing_6914/part.yaml\ncount: 4\ncell: " + kRoot +
+                 "/assets/cells/mz07_three_cups.yaml\nestimator: {type: " + estimator + "}\ntrial: {max_picks: 2}\n");
   return folder.path("scene.yaml");
 }
 
@@ -44,15 +44,16 @@ TEST(Campaign, TheSameRecordsOnOneAndTwoWorkersAndInReplay) {
   const TemporaryFolder folder;
   const std::string scene = small_scene(folder, "paper_ppf");
   for (const std::string workers : {"1", "2"}) {
-    const ProgramRun run =
-        run_program("campaign " + scene + " --seeds 20:24 --workers " + workers + " --out " + folder.path("run" + workers));
+    const ProgramRun run = run_program("campaign " + scene + " --seeds 20:24 --workers " + workers + " --out " +
+                                       folder.path("run" + workers));
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.out, testing::HasSubstr("picks"));
   }
   const auto one = records_of(folder.path("run1")), two = records_of(folder.path("run2"));
   ASSERT_EQ(one.size(), 4u);
   EXPECT_EQ(one, two);
-  for (const char* file : {"scenario.yaml", "summary.json", "environment.json", "report.html", "results.md", "picks.csv"})
+  for (const char* file :
+       {"scenario.yaml", "summary.json", "environment.json", "report.html", "results.md", "picks.csv"})
     EXPECT_TRUE(fs::exists(folder.path("run1") + "/" + file)) << file;
   EXPECT_EQ(json::parse(read_file(folder.path("run1/summary.json"))).at("records_hash"),
             json::parse(read_file(folder.path("run2/summary.json"))).at("records_hash"));
@@ -86,10 +87,10 @@ TEST(Campaign, AKilledWorkerCostsOneRecord) {
   const TemporaryFolder folder;
   const std::string scene = small_scene(folder, "oracle");
   // The first worker that has started a trial is killed once.
-  const ProgramRun run = run_program(
-      "campaign " + scene + " --seeds 1:6 --out " + folder.path("run") +
-          " & campaign=$!; for i in $(seq 200); do sleep 0.1; [ -s " + folder.path("run/records/records.jsonl") +
-          " ] && break; done; pkill -9 -P $campaign; wait $campaign; exit $?");
+  const ProgramRun run = run_program("campaign " + scene + " --seeds 1:6 --out " + folder.path("run") +
+                                     " & campaign=$!; for i in $(seq 200); do sleep 0.1; [ -s " +
+                                     folder.path("run/records/records.jsonl") +
+                                     " ] && break; done; pkill -9 -P $campaign; wait $campaign; exit $?");
   EXPECT_EQ(run.code, 5) << run.err;
   const auto records = records_of(folder.path("run"));
   ASSERT_EQ(records.size(), 5u);
@@ -102,10 +103,10 @@ TEST(Campaign, AnInterruptFinishesWhatIsInFlightAndCanBeResumed) {
   const TemporaryFolder folder;
   const std::string scene = small_scene(folder, "oracle");
   const std::string campaign = "campaign " + scene + " --seeds 1:9 --out " + folder.path("run");
-  const ProgramRun run = run_program(
-      campaign + " & campaign=$!; for i in $(seq 200); do sleep 0.1; [ -s " + folder.path("run/records/records.jsonl") +
-          " ] && break; done; kill -INT $campaign; wait $campaign; exit $?",
-      "set -m");
+  const ProgramRun run = run_program(campaign + " & campaign=$!; for i in $(seq 200); do sleep 0.1; [ -s " +
+                                         folder.path("run/records/records.jsonl") +
+                                         " ] && break; done; kill -INT $campaign; wait $campaign; exit $?",
+                                     "set -m");
   EXPECT_EQ(run.code, 130) << run.err;
   const auto partial = records_of(folder.path("run"));
   EXPECT_LT(partial.size(), 8u);

@@ -17,9 +17,10 @@ class Estimate : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder();
     const std::string root = BINPICK_SOURCE_DIR;
-    write_file(folder_->path("scene.yaml"), "part: " + root + "/assets/parts/bearing_6914/part.yaml\ncount: 4\ncell: " + root +
-                                                "/assets/cells/mz07_three_cups.yaml\ntrial: {max_picks: 1}\n");
-    run_ = new ProgramRun(run_program("trial " + folder_->path("scene.yaml") + " --seed 3 --out " + folder_->path("run")));
+    write_file(folder_->path("scene.yaml"), "part: " + root + "/assets/parts/bearing_6914/part.yaml\ncount: 4\ncell: " +
+                                                root + "/assets/cells/mz07_three_cups.yaml\ntrial: {max_picks: 1}\n");
+    run_ =
+        new ProgramRun(run_program("trial " + folder_->path("scene.yaml") + " --seed 3 --out " + folder_->path("run")));
   }
   static void TearDownTestSuite() {
     delete run_;

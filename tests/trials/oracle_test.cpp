@@ -20,7 +20,8 @@ GroundTruth truth_of(int count) {
   GroundTruth truth;
   truth.X_WC = pose_from_xyz_rpy({0.1, 0.2, 0.6}, {3.0, 0.1, 0.2});
   for (int i = 0; i < count; ++i)
-    truth.instances.push_back({0, std::size_t(i), pose_from_xyz_rpy({0.1 * i, 0, 0}, {0.1 * i, 0, 1}), (i + 1.0) / count, 100});
+    truth.instances.push_back(
+        {0, std::size_t(i), pose_from_xyz_rpy({0.1 * i, 0, 0}, {0.1 * i, 0, 1}), (i + 1.0) / count, 100});
   return truth;
 }
 

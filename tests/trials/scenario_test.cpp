@@ -31,7 +31,8 @@ TEST_P(ScenarioFiles, TheExpandedFileReplays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioFiles,
-                         testing::Values("bearing_bin.yaml", "bearing_bin_oracle.yaml", "bracket_bin.yaml", "tee_bin.yaml"));
+                         testing::Values("bearing_bin.yaml", "bearing_bin_oracle.yaml", "bracket_bin.yaml",
+                                         "tee_bin.yaml"));
 
 TEST(Scenario, EveryValueIsInTheHash) {
   Scenario scenario = read_scenario(kScenes + "bearing_bin.yaml");
