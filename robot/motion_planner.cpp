@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kOverRim = 0.020;   // m, everything that crosses the bin's rim clears it by this
 constexpr double kCarryGap = 0.010;  // m, between a carried part and bin, tray, table
+constexpr double kLeaning = 0.2;     // rad, parts that lean more are drawn off along their normal first
+constexpr double kDrawOff = 0.030;   // m
 constexpr int kYaws = 12;            // turns of the tool over the tray that are tried
 constexpr std::size_t kStarts = 4;   // arm postures per tip pose that are tried
 constexpr int kWays = 8;             // ways to the tray that are checked in full
@@ -110,13 +112,22 @@ bool MotionPlanner::approach_from(const std::vector<Pose>& tips, const Vector6d&
 }
 
 bool MotionPlanner::plan_lift(const PickTask& task, PlannedMotion& out, std::string& why) const {
-  const double height = rim() + kOverRim + kCarryGap - lowest(task.outline_P, task.X_WP);
-  out.lift = straight(out.approach.q.back(), raised(task.X_WG, std::max(height, config_.approach)));
-  if (out.lift.empty()) {
-    why = "lift out of reach";
-    return false;
+  // A part that leans on a wall is first drawn off it, along its own normal: dragged up along the wall it would slip.
+  const double lean = std::acos(std::clamp(-task.X_WG.linear()(2, 2), -1.0, 1.0));
+  const double draw_off = lean > kLeaning ? kDrawOff : 0;
+  const Pose X_off = task.X_WG * Eigen::Translation3d(0, 0, -draw_off);
+  const double height = rim() + kOverRim + kCarryGap - lowest(task.outline_P, X_off * task.X_WG.inverse() * task.X_WP);
+  out.lift = {{0}, {out.approach.q.back()}};
+  std::vector<Pose> tips = {raised(X_off, std::max(height, config_.approach))};
+  if (draw_off > 0) tips.insert(tips.begin(), X_off);
+  for (const Pose& X_next : tips) {
+    const JointTrajectory piece = straight(out.lift.q.back(), X_next);
+    if (piece.empty()) {
+      why = "lift out of reach";
+      return false;
+    }
+    out.lift = joined(out.lift, slowed(task, piece));
   }
-  out.lift = slowed(task, out.lift);
   if (const Obstacle hit = check_.path_hit(out.lift); hit != Obstacle::kNone) {
     why = in_the_way(hit, "lift");
     return false;

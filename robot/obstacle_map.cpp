@@ -97,6 +97,19 @@ bool ObstacleMap::touches(const Primitive& shape, const Pose& X_WO, double clear
   return touched;
 }
 
+/// Points with fewer than two others nearby float in the air: mixed pixels at edges, not a surface.
+static std::vector<Eigen::Vector3d> without_loners(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kNear = 0.010;  // m, two cells of the thinning grid
+  const ObstacleMap map(points);
+  std::vector<Eigen::Vector3d> kept;
+  for (const Eigen::Vector3d& p : map.points_W()) {
+    int near = -1;  // itself
+    map.for_each_in(p, Eigen::Vector3d::Constant(kNear), [&](std::uint32_t) { ++near; });
+    if (near >= 2) kept.push_back(p);
+  }
+  return kept;
+}
+
 ObstacleMap perceived_heap(const SceneView& view, const Pose& X_WC) {
   const bool frame = std::holds_alternative<DepthFrame>(view.seen);
   const PointCloud cloud_C = frame ? unproject(std::get<DepthFrame>(view.seen)) : std::get<PointCloud>(view.seen);
@@ -111,7 +124,8 @@ ObstacleMap perceived_heap(const SceneView& view, const Pose& X_WC) {
                        static_cast<int>(std::floor(at.z()))},
                       p_W});
   }
-  return ObstacleMap(thinned(voxels, frame ? 3 : 1));
+  const std::vector<Eigen::Vector3d> points = thinned(voxels, frame ? 3 : 1);
+  return ObstacleMap(frame ? without_loners(points) : points);
 }
 
 }  // namespace binpick

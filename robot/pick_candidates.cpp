@@ -9,7 +9,7 @@
 namespace binpick {
 namespace {
 
-constexpr double kScoreWeight = 2, kCoverWeight = 2, kDepthWeight = 1, kSiteWeight = 1, kTiltWeight = 0.5;
+constexpr double kScoreWeight = 2, kCoverWeight = 2, kDepthWeight = 1, kSiteWeight = 1, kTiltWeight = 2;
 constexpr double kCell = 0.005;  // m, the heap's own grid
 
 /// Turns about the site's normal that are worth trying: all of them when any is as good, else those of the tool itself.

@@ -47,7 +47,7 @@ class TargetFinder {
 };
 
 /// cost = 2 (1 - score) + 2 covered + 1 (depth below the highest target / largest depth) + 1 (1 - site quality)
-///        + 0.5 (tilt / largest tilt); spins of a site follow one another, the first without any turn.
+///        + 2 (tilt / largest tilt); spins of a site follow one another, the first without any turn.
 /// Candidates that a look at the tool's axis rules out are counted in `rejections`.
 std::vector<PickCandidate> ranked_candidates(const std::vector<Target>& targets, std::span<const PickSites> sites,
                                              int tool_order, const PlanningConfig& config,

@@ -38,7 +38,7 @@ struct PickPlan {
   Pose X_WP_est = Pose::Identity();    ///< believed part pose
   Pose X_WP_place = Pose::Identity();  ///< where the part shall be when released
   JointTrajectory approach;            ///< from the look pose to pressed contact
-  JointTrajectory lift;                ///< straight up out of the bin
+  JointTrajectory lift;                ///< out of the bin: straight up, a leaning part first off along its normal
   JointTrajectory place;               ///< to the tray, to release height
   JointTrajectory back;                ///< to the look pose
 };
