@@ -10,6 +10,7 @@ constexpr int kBins = 121;  // over +- the largest offset
 constexpr std::size_t kFewestPixels = 300;
 constexpr double kFewestShare = 0.02;  // of the bin's pixels
 constexpr double kModeShare = 0.4;     // of the highest mode: a deeper mode this high is the floor
+constexpr double kSmoothing = 0.001;   // m, of the histogram
 constexpr double kMargin = 0.01;       // m off the walls, where they mix into the floor
 
 std::vector<float> inverse_depth_differences(const Scene& scene, std::size_t& looked_at) {
@@ -33,6 +34,17 @@ int deepest_mode(const std::vector<double>& histogram) {
     if (histogram[b] >= kModeShare * most && histogram[b] >= left && histogram[b] >= right) return b;
   }
   return kBins / 2;
+}
+
+/// Standard deviation of what lies within `window` of a value, from the median distance (robust).
+double spread_about(const std::vector<float>& values, double center, double window) {
+  std::vector<double> off;
+  for (const float v : values)
+    if (std::abs(v - center) < window) off.push_back(std::abs(v - center));
+  if (off.empty()) return 0;
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  return 1.4826 * *middle;
 }
 
 }  // namespace
@@ -62,16 +74,18 @@ double floor_offset(const Scene& scene, double largest) {
       ++inside;
     }
   if (inside < kFewestPixels || static_cast<double>(inside) < kFewestShare * static_cast<double>(looked_at)) return 0;
-  const int half = std::max(1, static_cast<int>(sigma / width));
+  // Wide enough to bridge the gaps of a histogram of correlated noise, also where no noise is stated (a bare cloud).
+  const int half = std::max(1, static_cast<int>(std::max(sigma, kSmoothing / (z * z)) / width));
   for (int b = 0; b < kBins; ++b)
     for (int k = std::max(0, b - half); k <= std::min(kBins - 1, b + half); ++k)
       smooth[b] += counts[k] * (half + 1 - std::abs(k - b));
   double offset = (deepest_mode(smooth) + 0.5) * width - range;
   for (int round = 0; round < 8; ++round) {
+    const double spread = 2 * std::max(sigma, spread_about(differences, offset, 3 * kSmoothing / (z * z)));
     double sum = 0;
     std::size_t n = 0;
     for (const float d : differences)
-      if (std::abs(d - offset) < 2 * sigma) sum += d, ++n;
+      if (std::abs(d - offset) < spread) sum += d, ++n;
     if (n < kFewestPixels) return 0;
     offset = sum / static_cast<double>(n);
   }

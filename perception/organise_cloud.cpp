@@ -8,13 +8,18 @@ namespace {
 
 constexpr double kCoarser = 1.15;     // pixel / spacing of the points: few holes, few collisions
 constexpr double kWidestSlope = 2.5;  // x/z beyond which points are left out (68 degrees)
+constexpr double kAround = 0.01;      // m about the bin that are kept
 constexpr int kLargestImage = 2048;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-PointCloud in_front(const PointCloud& cloud_C) {
+/// Points in front of the camera and, where the bin is known, about it (pass-through, paper 3.1; the floor stays).
+PointCloud in_front(const PointCloud& cloud_C, const Scene& scene) {
   PointCloud out;
+  const Pose X_BC = scene.X_CB.inverse();
   for (std::size_t i = 0; i < cloud_C.size(); ++i) {
     const Eigen::Vector3d& p = cloud_C.points[i];
+    if (scene.bin && ((X_BC * p).head<2>().array().abs() > scene.bin->inner_size.head<2>().array() / 2 + kAround).any())
+      continue;
     if (!p.allFinite() || !(p.z() > 1e-3) || p.head<2>().cwiseAbs().maxCoeff() > kWidestSlope * p.z()) continue;
     out.points.push_back(p);
     if (cloud_C.has_normals()) out.normals.push_back(cloud_C.normals[i]);
@@ -47,7 +52,7 @@ PinholeCamera camera_for(const PointCloud& cloud_C) {
 }  // namespace
 
 void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scene& scene) {
-  PointCloud cloud = in_front(cloud_C);
+  PointCloud cloud = in_front(cloud_C, scene);
   if (cloud.points.empty()) {
     scene.depth = Image<float>(16, 16, kUnknown);
     scene.normals = Image<Eigen::Vector3f>(16, 16, Eigen::Vector3f::Zero());

@@ -7,7 +7,8 @@
 
 namespace binpick {
 
-/// Fills camera, depth and normals of `scene`; points behind the camera are left out.
+/// Fills camera, depth and normals of `scene`, whose bin and X_CB are set; points behind the camera or beside the bin
+/// are left out.
 void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scene& scene);
 
 }  // namespace binpick

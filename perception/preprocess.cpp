@@ -82,6 +82,8 @@ void PreprocessConfig::validate() const {
 
 Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest) {
   Scene scene;
+  scene.bin = view.bin;
+  scene.X_CB = view.X_CB;
   if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
     scene.camera = frame->camera;
     scene.depth = frame->depth;
@@ -90,8 +92,6 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   } else {
     organise_cloud(std::get<PointCloud>(view.seen), normals, scene);
   }
-  scene.bin = view.bin;
-  scene.X_CB = view.X_CB;
   scene.wanted = Image<std::uint8_t>(scene.depth.width(), scene.depth.height(), 0);
   clear_bad_depth(scene);
   if (scene.bin) {
