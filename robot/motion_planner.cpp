@@ -62,11 +62,6 @@ JointTrajectory MotionPlanner::slowed(const PickTask& task, const JointTrajector
 double MotionPlanner::rim() const { return (cell_.X_WB * Eigen::Vector3d(0, 0, cell_.bin.inner_size.z())).z(); }
 
 bool MotionPlanner::plan_approach(const PickTask& task, PlannedMotion& out, std::string& why) const {
-  // First what needs no inverse kinematics: the tool itself at contact.
-  if (const Obstacle hit = check_.tool_hit(task.X_WG * X_GF_); hit != Obstacle::kNone) {
-    why = in_the_way(hit, "at contact");
-    return false;
-  }
   const Pose X_pressed = task.X_WG * Eigen::Translation3d(0, 0, config_.press);
   const Pose X_pre = task.X_WG * Eigen::Translation3d(0, 0, -config_.approach);
   double lip_low = 0;  // how far a leaning tool's lowest lip hangs below the tip

@@ -29,7 +29,7 @@ struct PlannedMotion {
 
 class MotionPlanner {
  public:
-  /// `check` already knows the heap.
+  /// `check` already knows the heap; the tool at contact has been looked at.
   MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check);
 
   /// Empty when no way is found; `why` then says what stood in it.

@@ -108,7 +108,12 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
 std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
                                                           int placed, std::map<std::string, int>& rejections) const {
   const std::vector<PickCandidate> candidates = ranked_candidates(targets, sites, tool_order, config, rejections);
+  const Pose X_GF = cell.gripper->X_FG().inverse();
   std::vector<CollisionCheck> checks(targets.size(), CollisionCheck(cell, config.clearance));
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    checks[t].set_heap(&heap);
+    checks[t].set_ignored(targets[t].own_points);
+  }
   // No estimate may use up the whole budget, so that a hopeless first one does not hide a good second one.
   const int share = std::max(24, config.max_candidates / std::max<int>(1, static_cast<int>(targets.size())));
   std::vector<int> used(targets.size(), 0);
@@ -118,9 +123,10 @@ std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Targ
     if (used[candidate.target] >= share) continue;
     const Target& target = targets[candidate.target];
     CollisionCheck& check = checks[candidate.target];
-    if (used[candidate.target] == 0) {
-      check.set_heap(&heap);
-      check.set_ignored(target.own_points);
+    // The tool alone at contact is quickly looked at and does not count.
+    if (const Obstacle hit = check.tool_hit(candidate.X_WG * X_GF); hit != Obstacle::kNone) {
+      ++rejections["at contact in collision with " + to_string(hit)];
+      continue;
     }
     ++checked;
     ++used[candidate.target];

@@ -16,10 +16,10 @@ namespace binpick {
 
 struct PlanningConfig {
   double approach = 0.10;      ///< m, straight approach along the tool, before the contact
-  double clearance = 0.003;    ///< m, least distance of arm and tool from bin, table, tray and perceived heap
+  double clearance = 0.002;    ///< m, least distance of arm and tool from bin, table, tray and perceived heap
   double max_tool_tilt = 0.9;  ///< rad, between tool axis and vertical
-  int spins = 12;              ///< turns about the site's normal that are tried
-  int max_candidates = 400;    ///< candidates that are checked in full
+  int spins = 36;              ///< turns about the site's normal that are tried
+  int max_candidates = 400;    ///< candidates whose motions are planned; the tool alone at contact is checked for all
   double press = 0.004;        ///< m, how far the lips are pressed beyond the believed contact: twice the paper's
                                ///< mean height error of 2 mm, so that a part believed too high is still touched
   double place_height = 0.01;  ///< m, part's lowest point above the tray floor when it is released
