@@ -23,7 +23,7 @@ class Accumulator {
  public:
   explicit Accumulator(std::size_t references) : votes_(references * kAngles, 0) {}
 
-  void clear() { std::fill(votes_.begin(), votes_.end(), std::uint16_t{0}); }
+  void clear() { std::fill(votes_.begin(), votes_.end(), std::uint32_t{0}); }
 
   void add(std::span<const PairEntry> entries, std::uint16_t scene_alpha) {
     const auto turned = static_cast<std::uint16_t>(scene_alpha + (1 << (kShift - 1)));
@@ -34,11 +34,11 @@ class Accumulator {
   /// The best cells, none beside a better one of the same model reference; ties go to the lower cell.
   std::vector<Peak> peaks(const VotingConfig& config) const {
     std::vector<Peak> found;
-    const int best = *std::max_element(votes_.begin(), votes_.end());
+    const auto best = static_cast<int>(*std::max_element(votes_.begin(), votes_.end()));
     if (best < 3) return found;
-    const int least = std::max(3, static_cast<int>(config.peak_ratio * best));
+    const auto least = static_cast<std::uint32_t>(std::max(3, static_cast<int>(config.peak_ratio * best)));
     for (std::size_t c = 0; c < votes_.size(); ++c)
-      if (votes_[c] >= least && is_peak(c)) found.push_back({static_cast<int>(c), votes_[c]});
+      if (votes_[c] >= least && is_peak(c)) found.push_back({static_cast<int>(c), static_cast<int>(votes_[c])});
     std::stable_sort(found.begin(), found.end(), [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
     if (found.size() > static_cast<std::size_t>(config.peaks)) found.resize(static_cast<std::size_t>(config.peaks));
     return found;
@@ -50,7 +50,7 @@ class Accumulator {
     const std::size_t left = row + (c + kAngles - 1) % kAngles, right = row + (c + 1) % kAngles;
     return votes_[c] >= votes_[right] && votes_[c] > votes_[left];
   }
-  std::vector<std::uint16_t> votes_;
+  std::vector<std::uint32_t> votes_;
 };
 
 }  // namespace
