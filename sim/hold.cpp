@@ -13,9 +13,20 @@ using Coupling = btGeneric6DofSpring2Constraint;
 constexpr double kLipThickness = 0.002;  // m
 constexpr double kLipInertia = 1e-4;     // kg m^2; the plunger guides the lip, so it only steadies the solver
 constexpr double kStopErp = 0.5;         // share of a plunger's overrun that one step takes back
-// The lip's plane is stiff. Bullet iterates a joint row with cfm relative to the row's own inverse mass and diverges
-// above 1, so a spring with cfm cannot be soft; a small cfm only makes the shares of several cups well defined.
-constexpr double kLateralErp = 0.3, kLateralCfm = 0.05;
+// Bullet iterates a joint row with its cfm relative to the row's inverse mass and diverges above 1.
+constexpr double kLargestCfm = 0.5;
+
+/// A spring and damper as an implicitly integrated row: v = -erp x / dt - gamma impulse.
+struct SoftRow {
+  double erp, cfm;
+};
+
+SoftRow soft_row(double stiffness, double damping_ratio, double inverse_mass, double dt) {
+  const double mass = 1 / inverse_mass;
+  double damping = 2 * damping_ratio * std::sqrt(stiffness * mass);
+  damping = std::max(damping, mass / (kLargestCfm * dt) - dt * stiffness);  // more damping, never more stiffness
+  return {dt * stiffness / (dt * stiffness + damping), mass / (dt * (dt * stiffness + damping))};
+}
 
 void set_plunger(Coupling& joint, const CupSpec& cup, double moving_mass) {
   joint.setLinearLowerLimit({0, 0, -cup.stroke});
@@ -47,6 +58,7 @@ struct CupHold::Impl {
   void add_cup(const CupSpec& spec);
   void free_lip(std::size_t i, const Pose& X_WU);
   void set_lip(Coupling& joint, const CupSpec& spec, BodyId part) const;
+  void set_plane(Cup& cup, BodyId part, double dt) const;
   void read_free(std::size_t i);
   void read_sealed(std::size_t i, double dt);
   void detach(std::size_t i);
@@ -97,15 +109,11 @@ void CupHold::Impl::free_lip(std::size_t i, const Pose& X_WU) {
   engine().addConstraint(cup.plunger.get(), true);
 }
 
-/// A sealed lip: rigid in its plane, springs in bending (k r^2 / 2) and torsion (k r^2), damped for the part it holds.
+/// A sealed lip in rotation: springs in bending (k r^2 / 2) and torsion (k r^2), damped for the part it holds.
 void CupHold::Impl::set_lip(Coupling& joint, const CupSpec& spec, BodyId part) const {
   const btRigidBody& body = rigid(part);
   const Pose X_WU = world.pose(tool) * spec.X_GU;
   const btVector3 lever = to_bullet(Eigen::Vector3d(X_WU.translation())) - body.getCenterOfMassPosition();
-  for (int axis = 0; axis < 2; ++axis) {
-    joint.setParam(BT_CONSTRAINT_STOP_ERP, kLateralErp, axis);
-    joint.setParam(BT_CONSTRAINT_STOP_CFM, kLateralCfm, axis);
-  }
   for (int axis = 3; axis < 6; ++axis) {
     const btVector3 n = to_bullet(Eigen::Vector3d(X_WU.linear().col(axis - 3)));
     const double inertia =
@@ -116,6 +124,21 @@ void CupHold::Impl::set_lip(Coupling& joint, const CupSpec& spec, BodyId part) c
     joint.setStiffness(axis, stiffness);
     joint.setDamping(axis, 2 * config.damping_ratio * std::sqrt(stiffness * inertia));
     joint.setEquilibriumPoint(axis, 0);
+  }
+}
+
+/// A sealed lip in its plane, for this step.
+void CupHold::Impl::set_plane(Cup& cup, BodyId part, double dt) const {
+  const btRigidBody& body = rigid(part);
+  const btTransform X_WU = to_bullet(Pose(world.pose(tool) * cup.spec.X_GU));
+  const btVector3 lever =
+      to_bullet(Eigen::Vector3d(world.pose(part) * cup.X_PU.translation())) - body.getCenterOfMassPosition();
+  for (int axis = 0; axis < 2; ++axis) {
+    const btVector3 turning = lever.cross(X_WU.getBasis().getColumn(axis));
+    const double inverse_mass = body.getInvMass() + turning.dot(body.getInvInertiaTensorWorld() * turning);
+    const SoftRow row = soft_row(config.lateral_stiffness, config.damping_ratio, inverse_mass, dt);
+    cup.coupling->setParam(BT_CONSTRAINT_STOP_ERP, row.erp, axis);
+    cup.coupling->setParam(BT_CONSTRAINT_STOP_CFM, row.cfm, axis);
   }
 }
 
@@ -254,6 +277,8 @@ bool CupHold::holds_any() const {
 }
 
 void CupHold::step(double dt) {
+  for (std::size_t i = 0; i < impl_->cups.size(); ++i)
+    if (impl_->states[i].part) impl_->set_plane(impl_->cups[i], *impl_->states[i].part, dt);
   impl_->world.step(dt);
   for (std::size_t i = 0; i < impl_->cups.size(); ++i) {
     if (impl_->states[i].part)

@@ -149,6 +149,19 @@ TEST(Hold, PlateSlipsAtFrictionTimesVacuumForce) {  // V-B2, round friction cone
   EXPECT_NEAR(mass * a, expected, 0.03 * expected);
 }
 
+TEST(Hold, ALipYieldsSidewaysByForceOverStiffness) {
+  const double mass = 0.5, a = 2;
+  Bench bench(plate(mass, 0.004), 0.002, {cup_of(0.02)}, 1.0 / 500, 0.0);
+  bench.press_and_seal();
+  for (double t = 0; t < 0.5; t += bench.dt) bench.step_to(bench.at + Eigen::Vector3d(0, 0, 0.1 * bench.dt));
+  bench.accelerate(
+      {1, 0, 0}, [&](double t) { return std::min(a, 4 * t); }, 2);
+  ASSERT_TRUE(bench.held());
+  const double lag = bench.at.x() - bench.hold->X_WU(0).translation().x();
+  EXPECT_NEAR(lag, mass * a / HoldConfig{}.lateral_stiffness, 0.05 * lag);
+  EXPECT_NEAR(bench.hold->cups()[0].shear, mass * a, 0.01 * mass * a);
+}
+
 TEST(Hold, OneKilogramOnA25MillimetreCup) {  // V-B3, at three step lengths
   for (const double dt : {1.0 / 240, 1.0 / 500, 1.0 / 1000}) {
     Bench gentle(plate(1), 0.005, {cup_of(0.025)}, dt);
