@@ -21,11 +21,15 @@ pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 # Single OpenCV modules, never ${OpenCV_LIBS}: imgcodecs, videoio and ximgproc pull GPL libraries in Debian.
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc)
 
-# Plain PCL libraries, never ${PCL_LIBRARIES}: that drags VTK in even for the core components.
-find_package(PCL 1.12 REQUIRED COMPONENTS common kdtree search filters features)
+# Plain PCL libraries by name. Neither ${PCL_LIBRARIES} nor PCL's own imported targets: both drag VTK, Qt and MPI in even
+# for the core components (and with VTK comes GDAL, Poppler and x264).
+pkg_check_modules(PCL REQUIRED pcl_common>=1.12)
 add_library(binpick_pcl INTERFACE)
 target_include_directories(binpick_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
-target_link_libraries(binpick_pcl INTERFACE pcl_common pcl_kdtree pcl_search pcl_filters pcl_features)
+foreach(module features search kdtree common)
+  find_library(PCL_${module}_LIBRARY NAMES pcl_${module} REQUIRED)
+  target_link_libraries(binpick_pcl INTERFACE ${PCL_${module}_LIBRARY})
+endforeach()
 
 find_library(QHULL_R_LIBRARY NAMES qhull_r REQUIRED)
 find_path(QHULL_INCLUDE_DIR libqhull_r/libqhull_r.h REQUIRED)

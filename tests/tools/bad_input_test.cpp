@@ -125,14 +125,16 @@ class Storage : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// A file-size limit makes every write fail as a full disk does.
+// A file-size limit makes every write fail as a full disk does. It holds for the program alone: what it says leaves
+// through a pipe.
 TEST_F(Storage, AFullDiskEndsWithSix) {
   for (const std::string command : {"trial", "campaign"}) {
     const std::string seeds = command == "trial" ? " --seed 1" : " --seeds 1:3";
     const ProgramRun run = run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " +
-                                           folder_.path("run_" + command) + " 2>&1 | cat >&2; exit ${PIPESTATUS[0]}",
-                                       "ulimit -f 0");
-    EXPECT_EQ(run.code, 6) << command;
+                                           folder_.path("run_" + command) + ") 2>&1 | cat >&2; exit ${PIPESTATUS[0]}",
+                                       "(ulimit -f 0");
+    EXPECT_EQ(run.code, 6) << command << "\n" << run.err;
+    EXPECT_THAT(run.err, HasSubstr("run_" + command)) << "the message names the file";
   }
 }
 

@@ -83,7 +83,7 @@ TEST_P(SceneTest, TheRealEstimatorFindsAndPicks) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneTest, testing::Values("bearing_bin", "bracket_bin", "tee_bin"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& scene) { return std::string(scene.param); });
 
 TEST(Trial, SameSeedSameRecordInAnyContext) {
   Loaded& scene = loaded("bearing_bin", "real");
@@ -114,10 +114,12 @@ TEST(Trial, OnlyIfRightNeverMovesTheArmForAWrongEstimate) {
   careful.oracle.translation_error = 0.03;
   careful.trial.execute = "only_if_right";
   const TrialRecord record = run_trial(careful, Seed{3}, scene.context);
-  for (const PickRecord& pick : record.picks)
-    if (pick.chosen && pick.motion_time > 0)
-      for (const MatchedEstimate& match : pick.check.estimates)
-        EXPECT_TRUE(match.estimate != *pick.chosen || match.right);
+  for (const PickRecord& pick : record.picks) {
+    if (!pick.chosen || pick.motion_time <= 0) continue;
+    for (const MatchedEstimate& match : pick.check.estimates) {
+      EXPECT_TRUE(match.estimate != *pick.chosen || match.right);
+    }
+  }
 }
 
 }  // namespace
