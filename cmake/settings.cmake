@@ -18,7 +18,9 @@ target_include_directories(binpick_flags INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/binpick>")
 if(BINPICK_SANITIZE)
   target_compile_options(binpick_flags INTERFACE -fsanitize=${BINPICK_SANITIZE} -fno-sanitize-recover=all
-                                                 -fno-omit-frame-pointer)
+                                                 -fno-omit-frame-pointer
+                                                 # g++ 12 sees uninitialised values that are not, once it instruments
+                                                 -Wno-maybe-uninitialized)
   target_link_options(binpick_flags INTERFACE -fsanitize=${BINPICK_SANITIZE})
 endif()
 

@@ -143,6 +143,7 @@ int Scenario::part_count() const {
 
 Scenario read_scenario(const std::string& path) {
   Scenario scenario;
+  scenario.file = path;
   read_yaml_file(path, [&](ConfigVisitor& v) {
     scenario.visit(v);
     validate(scenario);

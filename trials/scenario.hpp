@@ -51,6 +51,7 @@ struct Scenario {
   PlanningConfig planning;
   ExecutionConfig execution;
   TrialConfig trial;
+  std::string file;  ///< where it was read from, for messages; no part of its values
 
   void visit(ConfigVisitor& v);
   int part_count() const;  ///< parts dropped in one trial

@@ -7,13 +7,13 @@ namespace binpick {
 namespace {
 
 // A part fits when it can lie in the bin in some turn about the vertical: its two smaller extents against the floor.
-void check_fits(const Part& part, const BinSpec& bin) {
+void check_fits(const Part& part, const BinSpec& bin, const std::string& scene_file) {
   Eigen::Vector3d extent = bounding_box(part.mesh_P).sizes();
   std::sort(extent.data(), extent.data() + 3);
   Eigen::Vector2d floor = bin.inner_size.head<2>();
   std::sort(floor.data(), floor.data() + 2);
   if (extent[1] >= floor[0] || extent[2] >= floor.norm())
-    throw SpecError("cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " +
+    throw SpecError(scene_file + ": cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " +
                     format_double(floor[0]) + " m is smaller than the part " + part.name + " (" +
                     format_double(extent[2]) + " x " + format_double(extent[1]) + " m)");
 }
@@ -24,7 +24,7 @@ TrialContext make_trial_context(Scenario& scenario) {
   TrialContext context;
   for (const PartEntry& entry : scenario.parts) {
     context.parts.push_back(load_part(entry.spec));
-    check_fits(context.parts.back(), scenario.cell.bin);
+    check_fits(context.parts.back(), scenario.cell.bin, scenario.file);
     context.shapes.push_back(collision_shape(context.parts.back()));
   }
   context.hash = scenario_hash(scenario);

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"negative parts", scene(kBox + "count: -3\n"), {"scene.yaml", "count"}},
         BadScene{"no part", scene(""), {"scene.yaml", "part"}},
         BadScene{"missing mesh", scene("part: {mesh: no.stl}\n"), {"no.stl", "No such file"}},
-        BadScene{"mesh is a folder", scene("part: {mesh: .}\n"), {"part"}},
+        BadScene{"mesh is a folder", scene("part: {mesh: .}\n"), {"is not a regular file"}},
         BadScene{"empty mesh", scene("part: {mesh: empty.stl}\n"), {"empty.stl"}},
         BadScene{"truncated mesh", scene("part: {mesh: short.stl}\n"), {"short.stl"}},
         BadScene{"NaN in the mesh", scene("part: {mesh: nan.stl}\n"), {"nan.stl"}},
