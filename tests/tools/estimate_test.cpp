@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/file_io.hpp"
 #include "core/image_io.hpp"
 #include "tests/tools/run_program.hpp"
@@ -42,22 +44,27 @@ TEST_F(Estimate, ARecordedFrameGivesTheTrialsPoses) {
   EXPECT_GE(std::count(estimate.out.begin(), estimate.out.end(), '\n'), 2);
 }
 
-TEST_F(Estimate, BadFramesAreOneLineAndExitTwo) {
+TEST(BadFrame, IsOneLineAndExitTwo) {
   const TemporaryFolder bad;
-  const auto run = [&] { return run_program("estimate " + bad.path()); };
-  EXPECT_EQ(run().code, 2);
-  EXPECT_THAT(run().err, HasSubstr("request.yaml"));
+  const auto expect_said = [&](const std::string& said) {
+    const ProgramRun run = run_program("estimate " + bad.path());
+    EXPECT_EQ(run.code, 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(said));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(run.out.empty());
+  };
+  expect_said("request.yaml");
   write_file(bad.path("request.yaml"), "camera: {width: 848}\nparts: []\n");
-  EXPECT_THAT(run().err, HasSubstr("at least one part"));
+  expect_said("at least one part");
   const std::string part = "parts: [{part: " + std::string(BINPICK_SOURCE_DIR) + "/assets/parts/tee/part.yaml}]\n";
   write_file(bad.path("request.yaml"), part);
-  EXPECT_THAT(run().err, HasSubstr("depth.tiff"));
+  expect_said("depth.tiff");
   write_tiff(bad.path("depth.tiff"), Image<float>(32, 32, 0.6f));
-  EXPECT_THAT(run().err, HasSubstr("32 x 32"));
+  expect_said("32 x 32");
   write_file(bad.path("depth.tiff"), "II*");
-  EXPECT_EQ(run().code, 2);
+  expect_said("depth.tiff");
   write_file(bad.path("request.yaml"), part + "seed: -1\n");
-  EXPECT_THAT(run().err, HasSubstr("seed"));
+  expect_said("seed");
 }
 
 }  // namespace
