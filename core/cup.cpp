@@ -27,6 +27,8 @@ void CupSpec::visit(ConfigVisitor& v) {
   v.field("stiffness", stiffness, Unit::kStiffness, "plunger spring");
   v.field("preload", preload, Unit::kForce, "plunger spring force when fully out");
   v.field("lip_compliance", lip_compliance, Unit::kLength, "height variation along the rim that the lip closes");
+  v.field("lip_stiffness", lip_stiffness, Unit::kStiffness,
+          "of the rim along its axis; a sealed lip bends with k r^2 / 2");
   v.field("max_tilt", max_tilt, Unit::kAngle, "largest angle between lip axis and surface normal, along the whole rim");
 }
 
@@ -44,6 +46,7 @@ void CupSpec::validate() const {
   need(stiffness > 0 && stiffness <= 1e6, "stiffness: must lie between 0 and 1e6 N/m");
   need(preload >= 0 && preload <= 1000, "preload: must lie between 0 and 1000 N");
   need(lip_compliance >= 0 && lip_compliance <= radius, "lip_compliance: must lie between 0 and the lip's radius");
+  need(lip_stiffness > 0 && lip_stiffness <= 1e6, "lip_stiffness: must lie between 0 and 1e6 N/m");
   need(max_tilt > 0 && max_tilt < 1.2, "max_tilt: must lie between 0 and 1.2 rad");
 }
 

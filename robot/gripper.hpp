@@ -35,15 +35,18 @@ struct Contact {
 /// A grasp on a part: K on the surface, +z outward; at contact z_G = -z_K, X_WG = X_WP * X_PK * X_KG.
 struct PickSite {
   Pose X_PK = Pose::Identity();
-  bool free_spin = false;  ///< any turn about z_K is as good
-  double quality = 1;      ///< 0..1: how well the surface seals and how near the mass centre is
+  bool free_spin = false;        ///< any turn about z_K is as good
+  double quality = 1;            ///< 0..1: how well the surface seals and how near the mass centre is
+  int cup = -1;                  ///< the one cup that takes hold, or -1: as many as the gripper needs
+  Pose X_UG = Pose::Identity();  ///< tip in the frame of that cup; identity when the whole tool takes hold
 };
 
-/// At contact the tool points against the site's normal: X_WG = X_WP * X_PK * X_KG, turned by `spin` about z_K.
+/// At contact the tool (or the site's cup) points against the normal: X_WG = X_WP * X_PK * X_KU * X_UG, turned by
+/// `spin` about z_K.
 inline Pose tip_at_site(const Pose& X_WP, const PickSite& site, double spin = 0) {
-  const Pose X_KG(Eigen::AngleAxisd(spin, Eigen::Vector3d::UnitZ()) *
+  const Pose X_KU(Eigen::AngleAxisd(spin, Eigen::Vector3d::UnitZ()) *
                   Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX()));
-  return X_WP * site.X_PK * X_KG;
+  return X_WP * site.X_PK * X_KU * site.X_UG;
 }
 
 class Gripper {

@@ -13,9 +13,10 @@ constexpr double kOverRim = 0.020;   // m, everything that crosses the bin's rim
 constexpr double kCarryGap = 0.010;  // m, between a carried part and bin, tray, table
 constexpr double kLeaning = 0.2;     // rad, parts that lean more are drawn off along their normal first
 constexpr double kDrawOff = 0.030;   // m
-constexpr int kYaws = 12;            // turns of the tool over the tray that are tried
-constexpr std::size_t kStarts = 4;   // arm postures per tip pose that are tried
-constexpr int kWays = 8;             // ways to the tray that are checked in full
+constexpr double kShortApproach = 0.4;
+constexpr int kYaws = 12;           // turns of the tool over the tray that are tried
+constexpr std::size_t kStarts = 4;  // arm postures per tip pose that are tried
+constexpr int kWays = 8;            // ways to the tray that are checked in full
 
 /// z of the lowest point of `points_A` at X_WA.
 double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
@@ -37,7 +38,12 @@ MotionPlanner::MotionPlanner(const Cell& cell, const PlanningConfig& config, con
 
 std::optional<PlannedMotion> MotionPlanner::plan(const PickTask& task, std::string& why) const {
   PlannedMotion out;
-  if (plan_approach(task, out, why) && plan_lift(task, out, why) && plan_place(task, out, why)) return out;
+  // A shorter straight way reaches places at the edge of the workspace.
+  std::string why_short;
+  if (!plan_approach(task, config_.approach, out, why) &&
+      !plan_approach(task, kShortApproach * config_.approach, out, why_short))
+    return std::nullopt;
+  if (plan_lift(task, out, why) && plan_place(task, out, why)) return out;
   return std::nullopt;
 }
 
@@ -55,15 +61,15 @@ JointTrajectory MotionPlanner::straight(const Vector6d& q_from, const Pose& X_WG
 
 JointTrajectory MotionPlanner::slowed(const PickTask& task, const JointTrajectory& path) const {
   if (path.empty()) return path;
-  const Pose X_FA = cell_.gripper->X_FG() * task.X_WG.inverse() * Eigen::Translation3d(task.X_WP * task.center_P);
-  return gentle(*cell_.arm, path, X_FA, config_.acceleration);
+  const Pose X_FA = cell_.gripper->X_FG() * task.X_GP * Eigen::Translation3d(task.center_P);
+  return gentle(*cell_.arm, path, X_FA, task.care * config_.acceleration);
 }
 
 double MotionPlanner::rim() const { return (cell_.X_WB * Eigen::Vector3d(0, 0, cell_.bin.inner_size.z())).z(); }
 
-bool MotionPlanner::plan_approach(const PickTask& task, PlannedMotion& out, std::string& why) const {
-  const Pose X_pressed = task.X_WG * Eigen::Translation3d(0, 0, config_.press);
-  const Pose X_pre = task.X_WG * Eigen::Translation3d(0, 0, -config_.approach);
+bool MotionPlanner::plan_approach(const PickTask& task, double approach, PlannedMotion& out, std::string& why) const {
+  const Pose X_pressed = task.X_WG * Eigen::Translation3d(0, 0, task.press);
+  const Pose X_pre = task.X_WG * Eigen::Translation3d(0, 0, -approach);
   double lip_low = 0;  // how far a leaning tool's lowest lip hangs below the tip
   for (const CupSpec& cup : cell_.gripper->cups()) {
     const Eigen::Vector3d z_W = task.X_WG.linear().transpose().col(2);  // world's z in G
@@ -134,9 +140,12 @@ MotionPlanner::Place MotionPlanner::place_at(const PickTask& task, double yaw) c
   const Eigen::Matrix3d R_WG =
       rotation_with_z(-Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
   Place place;
-  place.X_WG = pose_from(R_WG, Eigen::Vector3d::Zero());
-  const Pose X_GP = task.X_WG.inverse() * task.X_WP;
-  place.X_WP = place.X_WG * X_GP;
+  // A part that is held leaning is laid down flat: the tool leans instead.
+  const Eigen::Matrix3d upright =
+      Eigen::Quaterniond::FromTwoVectors(R_WG * task.X_GP.linear() * task.up_P, Eigen::Vector3d::UnitZ())
+          .toRotationMatrix();
+  place.X_WG = pose_from(upright * R_WG, Eigen::Vector3d::Zero());
+  place.X_WP = place.X_WG * task.X_GP;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p_P : task.outline_P) box.extend(place.X_WP * p_P);
   Eigen::Vector3d wanted = cell_.tray.X_WT * Eigen::Vector3d(task.slot_T.x(), task.slot_T.y(), 0);
@@ -189,13 +198,12 @@ bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, std::st
 }
 
 Obstacle MotionPlanner::carried_hit(const PickTask& task, const JointTrajectory& carry) const {
-  const Pose X_GP = task.X_WG.inverse() * task.X_WP;
   Obstacle hit = Obstacle::kNone;
   Vector6d last = Vector6d::Constant(1e9);
   for (std::size_t k = 0; k < carry.q.size() && hit == Obstacle::kNone; ++k) {
     if ((carry.q[k] - last).cwiseAbs().maxCoeff() < 0.02 && k + 1 < carry.q.size()) continue;
     last = carry.q[k];
-    const Pose X_WP = cell_.tip_pose(last) * X_GP;
+    const Pose X_WP = cell_.tip_pose(last) * task.X_GP;
     std::vector<Eigen::Vector3d> held_W;
     for (const Eigen::Vector3d& p_P : task.outline_P) held_W.push_back(X_WP * p_P);
     hit = check_.points_hit(held_W, -kCarryGap);

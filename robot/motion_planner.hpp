@@ -16,9 +16,13 @@ namespace binpick {
 struct PickTask {
   Pose X_WG = Pose::Identity();                        ///< tip at believed contact
   Pose X_WP = Pose::Identity();                        ///< believed part
+  Pose X_GP = Pose::Identity();                        ///< the part as it hangs on the tool
   std::vector<Eigen::Vector3d> outline_P;              ///< vertices that bound the part
   Eigen::Vector3d center_P = Eigen::Vector3d::Zero();  ///< mass centre
   Eigen::Vector2d slot_T = Eigen::Vector2d::Zero();    ///< centre of its place in the tray
+  double care = 1;                                     ///< share of the configured acceleration of the held part
+  double press = 0;                                    ///< m, how far the tip goes on along the tool
+  Eigen::Vector3d up_P = Eigen::Vector3d::UnitZ();     ///< what faces up in the tray
   double layer_height = 0;                             ///< m above the tray's floor: top of what lies below
 };
 
@@ -46,7 +50,7 @@ class MotionPlanner {
     Vector6d q_over;
     double time = 0;  ///< s, estimated
   };
-  bool plan_approach(const PickTask& task, PlannedMotion& out, std::string& why) const;
+  bool plan_approach(const PickTask& task, double approach, PlannedMotion& out, std::string& why) const;
   bool approach_from(const std::vector<Pose>& tips, const Vector6d& q_start, PlannedMotion& out,
                      std::string& why) const;
   bool plan_lift(const PickTask& task, PlannedMotion& out, std::string& why) const;

@@ -22,13 +22,16 @@ struct Target {
   double score = 0;
   double top = 0;                ///< m, height of its highest point over the lowest target's
   double covered = 0;            ///< 0..1, share of it that lies under something else
+  bool failed = false;           ///< a pick at this place has just failed
   std::vector<char> own_points;  ///< per heap point: belongs to this part
 };
 
 struct PickCandidate {
   std::size_t target = 0;
   PickSite site;
+  Pose X_WP = Pose::Identity();  ///< the believed part, or its symmetric twin whose site faces up
   Pose X_WG = Pose::Identity();
+  double lean = 0;  ///< rad, tool axis off the surface's normal, towards the vertical
   double cost = 0;
 };
 
@@ -46,11 +49,30 @@ class TargetFinder {
   std::vector<MeshQuery> queries_;
 };
 
-/// cost = 2 (1 - score) + 2 covered + 1 (depth below the highest target / largest depth) + 1 (1 - site quality)
-///        + 2 (tilt / largest tilt); spins of a site follow one another, the first without any turn.
+/// What the tool itself allows, worked out once.
+struct ToolFreedom {
+  int turn_order = 1;       ///< turns by 2 pi / n leave the cups where they are; 0: any turn
+  double largest_lean = 0;  ///< rad: the plungers still bring every lip to a flat surface, and no lip is tilted too far
+};
+ToolFreedom tool_freedom(const Gripper& gripper, const PlanningConfig& config);
+
+/// The tip turned about the site by `lean`, so that the tool's axis comes nearer to the vertical; negative undoes it.
+Pose leaning(const Pose& X_WG, double lean);
+
+/// How far beyond the tip's contact the tool must go on until its last lip touches a flat surface, leaning by `lean`.
+double lean_reach(const Gripper& gripper, double lean);
+
+/// cost = 2 (1 - score) + 4 (a part that lies under others: from a covered share of 3 %) + 1 (depth below the highest
+///        target / largest depth) + 1 (1 - site quality) + 2 (tilt / largest tilt) + 1 (lean / largest lean)
+///        + 10 where a pick has just failed; spins of a site follow one another, the first without any turn.
 /// Candidates that a look at the tool's axis rules out are counted in `rejections`.
-std::vector<PickCandidate> ranked_candidates(const std::vector<Target>& targets, std::span<const PickSites> sites,
-                                             int tool_order, const PlanningConfig& config,
+struct CandidateInput {
+  std::span<const Part> parts;
+  std::span<const PickSites> sites;  ///< per part
+  const ToolFreedom& tool;
+  const PlanningConfig& config;
+};
+std::vector<PickCandidate> ranked_candidates(const std::vector<Target>& targets, const CandidateInput& in,
                                              std::map<std::string, int>& rejections);
 
 }  // namespace binpick

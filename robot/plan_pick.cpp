@@ -7,6 +7,7 @@
 #include "core/check.hpp"
 #include "core/error.hpp"
 #include "robot/motion_planner.hpp"
+#include "robot/one_cup.hpp"
 #include "robot/pick_candidates.hpp"
 #include "robot/pick_sites.hpp"
 #include "robot/tray_slots.hpp"
@@ -16,11 +17,21 @@ namespace {
 
 constexpr double kOwnTolerance = 0.004;  // m, plus three sigma: a heap point this near an estimate's surface is its own
 
+constexpr double kOneCupCare = 0.5;  // share of the acceleration at which a part on a single cup of several is carried
+
 constexpr double kRobotMargin = 0.025;  // m: seen points this near to arm or tool are the robot itself
 
 double own_tolerance(const SceneView& view) {
   const auto* frame = std::get_if<DepthFrame>(&view.seen);
   return kOwnTolerance + (frame ? 3 * frame->noise.sigma(0.6) : 0);
+}
+
+void mark_failed(std::vector<Target>& targets, std::span<const Part> parts, std::span<const Eigen::Vector3d> failed_W) {
+  for (Target& target : targets) {
+    const Part& part = parts[target.part];
+    for (const Eigen::Vector3d& p_W : failed_W)
+      target.failed |= (target.X_WP * part.box_center_P - p_W).norm() < part.diameter / 4;
+  }
 }
 
 std::string summary(const std::map<std::string, int>& rejections) {
@@ -38,6 +49,8 @@ void PlanningConfig::visit(ConfigVisitor& v) {
   v.field("approach", approach, Unit::kLength, "straight approach along the tool before the contact");
   v.field("clearance", clearance, Unit::kLength, "least distance of arm and tool from everything but the target");
   v.field("max_tool_tilt", max_tool_tilt, Unit::kAngle, "largest angle between tool axis and vertical");
+  v.field("max_lean", max_lean, Unit::kAngle,
+          "tool axis off the surface's normal, as far as plungers and lips allow it");
   v.field("spins", spins, "turns about a site's normal that are tried");
   v.field("max_candidates", max_candidates, "candidates that are checked in full");
   v.field("press", press, Unit::kLength, "how far the lips are pressed beyond the believed contact");
@@ -56,6 +69,7 @@ void PlanningConfig::validate() const {
   need(approach >= 0.005 && approach <= 0.5, "approach: must lie between 5 and 500 mm");
   need(clearance >= 0 && clearance <= 0.05, "clearance: must lie between 0 and 50 mm");
   need(max_tool_tilt > 0 && max_tool_tilt <= 1.57, "max_tool_tilt: must lie between 0 and 90 degrees");
+  need(max_lean >= 0 && max_lean <= 0.5, "max_lean: must lie between 0 and 0.5 rad");
   need(spins >= 1 && spins <= 360, "spins: must lie between 1 and 360");
   need(max_candidates >= 1 && max_candidates <= 100000, "max_candidates: must lie between 1 and 100000");
   need(press >= 0 && press <= 0.05, "press: must lie between 0 and 50 mm");
@@ -75,9 +89,11 @@ struct PickPlanner::Impl {
     site_config.keep_weak = !config.hold_check;
     for (const Part& part : parts) {
       sites.push_back(find_pick_sites(part, *cell.gripper, site_config));
+      for (const PickSite& site : find_one_cup_sites(part, *cell.gripper, site_config))
+        sites.back().sites.push_back(site);
       outlines_P.push_back(outline_of(part.mesh_P));
     }
-    tool_order = turn_order(*cell.gripper);
+    tool = tool_freedom(*cell.gripper, config);
   }
 
   std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap, int placed,
@@ -90,13 +106,20 @@ struct PickPlanner::Impl {
   TargetFinder finder;
   std::vector<PickSites> sites;
   std::vector<std::vector<Eigen::Vector3d>> outlines_P;
-  int tool_order = 1;
+  ToolFreedom tool;
 };
 
 PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target& target, int placed) const {
   PickTask task;
   task.X_WG = candidate.X_WG;
-  task.X_WP = target.X_WP;
+  task.X_WP = candidate.X_WP;
+  // Several plungers all hang fully out under a held part, which brings its face square to the tool; a single lip keeps
+  // the lean it was pressed on with.
+  const bool square = cell.gripper->cups().size() > 1 && candidate.site.cup < 0;
+  task.care = candidate.site.cup < 0 ? 1 : kOneCupCare;
+  task.X_GP = (square ? leaning(candidate.X_WG, -candidate.lean) : candidate.X_WG).inverse() * candidate.X_WP;
+  task.press = config.press + lean_reach(*cell.gripper, candidate.lean);
+  task.up_P = candidate.site.X_PK.linear().col(2);
   task.outline_P = outlines_P[target.part];
   task.center_P = parts[target.part].mass.center_P;
   const TraySlot slot = tray_slot(cell.tray.inner_size, parts[target.part].diameter, placed);
@@ -107,7 +130,7 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
 
 std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
                                                           int placed, std::map<std::string, int>& rejections) const {
-  const std::vector<PickCandidate> candidates = ranked_candidates(targets, sites, tool_order, config, rejections);
+  const std::vector<PickCandidate> candidates = ranked_candidates(targets, {parts, sites, tool, config}, rejections);
   const Pose X_GF = cell.gripper->X_FG().inverse();
   std::vector<CollisionCheck> checks(targets.size(), CollisionCheck(cell, config.clearance));
   for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -137,7 +160,7 @@ std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Targ
       ++rejections[why];
       continue;
     }
-    return PickPlan{target.estimate,  candidate.site, candidate.X_WG, target.X_WP, motion->X_WP_place,
+    return PickPlan{target.estimate,  candidate.site, candidate.X_WG, candidate.X_WP, motion->X_WP_place,
                     motion->approach, motion->lift,   motion->place,  motion->back};
   }
   return std::nullopt;
@@ -149,14 +172,15 @@ PickPlanner::~PickPlanner() = default;
 PickPlanner::PickPlanner(PickPlanner&&) noexcept = default;
 PickPlanner& PickPlanner::operator=(PickPlanner&&) noexcept = default;
 
-PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed) const {
+PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed,
+                             std::span<const Eigen::Vector3d> failed_W) const {
   const auto start = std::chrono::steady_clock::now();
   PlanResult result;
   // The frame was taken at the look pose, where the tool may stand in the picture.
   const CollisionCheck robot(impl_->cell, 0);
   const ObstacleMap heap(robot.without_robot(perceived_heap(view, X_WC).points_W(), impl_->cell.q_look, kRobotMargin));
-  const std::vector<Target> targets =
-      impl_->finder.find(found, X_WC, heap, own_tolerance(view), impl_->config.min_score);
+  std::vector<Target> targets = impl_->finder.find(found, X_WC, heap, own_tolerance(view), impl_->config.min_score);
+  mark_failed(targets, impl_->parts, failed_W);
   const int low = static_cast<int>(found.estimates.size() - targets.size());
   if (low > 0) result.rejections["score too low"] = low;
   for (const Target& target : targets) {

@@ -17,14 +17,15 @@ namespace binpick {
 struct PlanningConfig {
   double approach = 0.10;      ///< m, straight approach along the tool, before the contact
   double clearance = 0.002;    ///< m, least distance of arm and tool from bin, table, tray and perceived heap
-  double max_tool_tilt = 0.9;  ///< rad, between tool axis and vertical
+  double max_lean = 0.17;      ///< rad, tool axis off the surface's normal, as far as plungers and lips allow it
+  double max_tool_tilt = 1.1;  ///< rad, between tool axis and vertical
   int spins = 36;              ///< turns about the site's normal that are tried
   int max_candidates = 400;    ///< candidates whose motions are planned; the tool alone at contact is checked for all
   double press = 0.004;        ///< m, how far the lips are pressed beyond the believed contact: twice the paper's
                                ///< mean height error of 2 mm, so that a part believed too high is still touched
   double place_height = 0.01;  ///< m, part's lowest point above the tray floor when it is released
   double min_score = 0.0;      ///< estimates below are not picked
-  double acceleration = 5;  ///< m/s^2 of a held part, and added to gravity when a hold is checked (physical_models B1)
+  double acceleration = 4;  ///< m/s^2 of a held part, and added to gravity when a hold is checked (physical_models B1)
   double safety = 1.5;      ///< load factor of that check
   bool hold_check = true;   ///< false: sites that would peel are tried too, last
   void visit(ConfigVisitor& v);
@@ -60,8 +61,10 @@ class PickPlanner {
   PickPlanner(PickPlanner&&) noexcept;
   PickPlanner& operator=(PickPlanner&&) noexcept;
 
-  /// `placed` counts parts already in the tray (chooses the slot).
-  PlanResult plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed) const;
+  /// `placed` counts parts already in the tray (chooses the slot). `failed_W`: middles of believed parts at which a
+  /// pick has just failed; they come last.
+  PlanResult plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed,
+                  std::span<const Eigen::Vector3d> failed_W = {}) const;
 
  private:
   struct Impl;

@@ -118,7 +118,7 @@ void CupHold::Impl::set_lip(Coupling& joint, const CupSpec& spec, BodyId part) c
     const btVector3 n = to_bullet(Eigen::Vector3d(X_WU.linear().col(axis - 3)));
     const double inertia =
         1 / n.dot(body.getInvInertiaTensorWorld() * n) + lever.cross(n).length2() / body.getInvMass();
-    const double stiffness = config.lip_stiffness * spec.radius * spec.radius * (axis == 5 ? 1.0 : 0.5);
+    const double stiffness = spec.lip_stiffness * spec.radius * spec.radius * (axis == 5 ? 1.0 : 0.5);
     joint.setLimit(axis, 1, -1);  // free but for the spring
     joint.enableSpring(axis, true);
     joint.setStiffness(axis, stiffness);

@@ -29,8 +29,7 @@ struct HoldConfig {
   double grip_share = 0.5;
   double break_time = 0.010;       ///< s a limit must be exceeded
   double lip_mass = 0.03;          ///< kg, the moving part of the plunger; weightless, as it hangs on the tool
-  double lip_stiffness = 2e4;      ///< N/m, of a sealed rim along its axis: bending k r^2 / 2, torsion k r^2
-  double lateral_stiffness = 1e4;  ///< N/m, of a sealed lip in its plane
+  double lateral_stiffness = 2e3;  ///< N/m, of a sealed lip in its plane: rubber, softer than its rim is stiff
   double damping_ratio = 0.7;      ///< of the lip's springs
 };
 

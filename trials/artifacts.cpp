@@ -49,15 +49,25 @@ cv::Point centre_of(const Image<std::int32_t>& ids, std::int32_t id) {
   return {static_cast<int>(sum_u / count) - 8, static_cast<int>(sum_v / count) + 5};
 }
 
-// From beside and above the bin, looking at its middle.
-Pose bystander(const Cell& cell) {
-  const Eigen::Vector3d target = cell.X_WB * Eigen::Vector3d(0, 0, 0.3 * cell.bin.inner_size.z());
-  const Eigen::Vector3d eye =
-      target + 1.9 * cell.bin.inner_size.head<2>().maxCoeff() * Eigen::Vector3d(0.55, -0.55, 1.25);
+// A camera at `eye` that looks at `target`, upright.
+Pose looking_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
   const Eigen::Vector3d z = (target - eye).normalized(), x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d R;
   R << x, z.cross(x), z;
   return pose_from(R, eye);
+}
+
+// From beside and above the bin, looking at its middle.
+Pose bystander(const Cell& cell) {
+  const Eigen::Vector3d target = cell.X_WB * Eigen::Vector3d(0, 0, 0.3 * cell.bin.inner_size.z());
+  const double away = 1.9 * cell.bin.inner_size.head<2>().maxCoeff();
+  return looking_at(target + away * Eigen::Vector3d(0.55, -0.55, 1.25), target);
+}
+
+// From close by, a little above the lips: does the cup touch what it lifts?
+Pose beside_tip(const CellWorld& cell_world) {
+  const Eigen::Vector3d tip = cell_world.cell().tip_pose(cell_world.joints()).translation();
+  return looking_at(tip + Eigen::Vector3d(0.17, -0.20, 0.08), tip);
 }
 
 PinholeCamera bystander_camera() { return {960, 640, 900, 900, 479.5, 319.5}; }
@@ -134,7 +144,9 @@ void TrialPictures::look(int pick, DepthRenderer& renderer, const CellWorld& cel
 
 void TrialPictures::moment(int pick, const char* name, DepthRenderer& renderer, const CellWorld& cell_world) {
   if (pick >= looks_ && std::string(name) != "failed") return;
-  save(pick, name, renderer.picture(cell_world.render_scene(), bystander_camera(), bystander(cell_world.cell())));
+  const bool close = std::string(name) == "lifted";
+  const Pose X_WC = close ? beside_tip(cell_world) : bystander(cell_world.cell());
+  save(pick, name, renderer.picture(cell_world.render_scene(), bystander_camera(), X_WC));
 }
 
 }  // namespace binpick

@@ -84,7 +84,8 @@ class Execution {
   bool seal() {
     arm_.wait(kDwell, true);
     const std::vector<SurfaceSample> samples = cell_.probe_cups();
-    const Contact contact = cell_.cell().gripper->judge(samples);
+    Contact contact = cell_.cell().gripper->judge(samples);
+    if (plan_.site.cup >= 0) contact.sealed = contact.cup_sealed[static_cast<std::size_t>(plan_.site.cup)];
     if (contact.sealed) {
       attach(contact, samples);
       if (build_vacuum()) {
@@ -145,6 +146,7 @@ class Execution {
     }
     for (std::size_t i = 0; i < start_centres_.size(); ++i)
       if (came_along(i)) end(PickOutcome::kDoublePick, "part " + std::to_string(i) + " came out with it");
+    if (hook_) hook_("lifted", cell_);
     return true;
   }
 

@@ -43,7 +43,8 @@ struct ExecutionResult {
   int neighbours_moved = 0;              ///< other parts in the bin whose box centre moved more than 5 mm
 };
 
-/// Called once when the cups hold the part before the lift ("held"), and once at release ("released"): for pictures.
+/// Called when the cups hold the part before the lift ("held"), when it is out of the bin ("lifted") and at release
+/// ("released"): for pictures.
 using ExecutionHook = std::function<void(const char* moment, const CellWorld& cell)>;
 
 ExecutionResult execute_pick(CellWorld& cell_world, const PickPlan& plan, const ExecutionConfig& config,

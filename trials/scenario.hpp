@@ -29,7 +29,7 @@ struct PartEntry {
 /// When a trial ends, and whether the arm moves.
 struct TrialConfig {
   int max_picks = 30;
-  int failures_in_a_row = 3;
+  int failures_in_a_row = 5;
   std::string execute = "always";  ///< always | only_if_right: the check against truth may veto the arm, never steer it
   double exposure = 0.1;           ///< s, added to every cycle
   void visit(ConfigVisitor& v);

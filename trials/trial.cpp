@@ -113,20 +113,40 @@ FrameRequest frame_request(const Scenario& s, Seed seed) {
   return request;
 }
 
+// What stays with a trial from pick to pick.
+struct Run {
+  const Scenario& s;
+  CellWorld& cell_world;
+  TrialContext& context;
+  Seed seed;
+  TrialPictures* pictures;
+  std::vector<Eigen::Vector3d> failed_W;  // middles of believed parts at which picks have failed since the last success
+};
+
+// The arm moves: what comes of it.
+void execute_plan(Run& run, const PickPlan& plan, int pick, PickRecord& record) {
+  record.chosen = plan.estimate;
+  if (run.s.trial.execute == "only_if_right" && !chosen_is_right(record, plan.estimate)) {
+    record.outcome = PickOutcome::kNoReachablePick;
+    record.reason = "not executed: the chosen estimate is wrong (trial.execute: only_if_right)";
+    return;
+  }
+  execute(run.s, run.cell_world, run.context, plan, pick, run.pictures, record);
+}
+
 // One turn of the loop: look, estimate, check, plan, pick.
-PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, int pick,
-                     TrialPictures* pictures) {
+PickRecord pick_once(Run& run, int pick) {
   PickRecord record;
-  record.sim_time = s.trial.exposure;
-  const Observation seen = observe(s, cell_world, context, seed, pick, record);
-  const Seed estimator_seed = seed.child("estimator", static_cast<std::uint64_t>(pick));
-  const EstimateResult found = estimate(s, context, seen, estimator_seed);
+  record.sim_time = run.s.trial.exposure;
+  const Observation seen = observe(run.s, run.cell_world, run.context, run.seed, pick, record);
+  const Seed estimator_seed = run.seed.child("estimator", static_cast<std::uint64_t>(pick));
+  const EstimateResult found = estimate(run.s, run.context, seen, estimator_seed);
   record.wall = found.wall;
   record.estimates_hash = estimates_hash(found);
-  record.check = context.checker->check(found, seen.X_WC_believed, seen.truth);  // before the arm moves
-  if (pictures) {
-    pictures->look(pick, *context.renderer, cell_world, std::get<DepthFrame>(seen.view.seen), found);
-    if (s.estimator) pictures->frame(pick, frame_request(s, estimator_seed), seen.view, found);
+  record.check = run.context.checker->check(found, seen.X_WC_believed, seen.truth);  // before the arm moves
+  if (run.pictures) {
+    run.pictures->look(pick, *run.context.renderer, run.cell_world, std::get<DepthFrame>(seen.view.seen), found);
+    if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), seen.view, found);
   }
   if (found.status != EstimateStatus::kFound) {
     const bool failed = found.status == EstimateStatus::kFailed;
@@ -135,35 +155,31 @@ PickRecord pick_once(const Scenario& s, CellWorld& cell_world, TrialContext& con
     return record;
   }
   const Stopwatch planning;
-  const PlanResult plan =
-      context.planner->plan(found, seen.view, seen.X_WC_believed, count_in(cell_world, &CellWorld::in_tray));
+  const PlanResult plan = run.context.planner->plan(found, seen.view, seen.X_WC_believed,
+                                                    count_in(run.cell_world, &CellWorld::in_tray), run.failed_W);
   record.plan_wall = planning.seconds();
   record.rejections = plan.rejections;
   record.outcome = plan.outcome;
   record.reason = plan.reason;
   if (!plan.plan) return record;
-  record.chosen = plan.plan->estimate;
-  if (s.trial.execute == "only_if_right" && !chosen_is_right(record, *record.chosen)) {
-    record.outcome = PickOutcome::kNoReachablePick;
-    record.reason = "not executed: the chosen estimate is wrong (trial.execute: only_if_right)";
-    return record;
-  }
-  execute(s, cell_world, context, *plan.plan, pick, pictures, record);
+  execute_plan(run, *plan.plan, pick, record);
+  const Part& part = run.context.parts[found.estimates[plan.plan->estimate].part];
+  run.failed_W.push_back(plan.plan->X_WP_est * part.box_center_P);
   return record;
 }
 
-void pick_until_done(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed,
-                     TrialPictures* pictures, TrialRecord& record) {
+void pick_until_done(Run& run, TrialRecord& record) {
   int failures = 0;
-  for (int pick = 0; pick < s.trial.max_picks && failures < s.trial.failures_in_a_row; ++pick) {
-    if (count_in(cell_world, &CellWorld::in_bin) == 0) break;
-    record.picks.push_back(pick_once(s, cell_world, context, seed, pick, pictures));
-    record.picks.back().world_hash = cell_world.world().state_hash();
+  for (int pick = 0; pick < run.s.trial.max_picks && failures < run.s.trial.failures_in_a_row; ++pick) {
+    if (count_in(run.cell_world, &CellWorld::in_bin) == 0) break;
+    record.picks.push_back(pick_once(run, pick));
+    record.picks.back().world_hash = run.cell_world.world().state_hash();
     const bool succeeded = record.picks.back().outcome == PickOutcome::kSucceeded;
     failures = succeeded ? 0 : failures + 1;
-    if (!succeeded && pictures) pictures->moment(pick, "failed", *context.renderer, cell_world);
+    if (succeeded) run.failed_W.clear();
+    if (!succeeded && run.pictures) run.pictures->moment(pick, "failed", *run.context.renderer, run.cell_world);
   }
-  record.placed = count_in(cell_world, &CellWorld::in_tray);
+  record.placed = count_in(run.cell_world, &CellWorld::in_tray);
 }
 
 void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pictures, TrialRecord& record) {
@@ -178,7 +194,8 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   record.worst_penetration = heap.worst_penetration;
   record.drop_hash = cell_world.world().state_hash();
   if (heap.settled && heap.escaped.empty()) {
-    pick_until_done(s, cell_world, context, seed, pictures, record);
+    Run run_state{s, cell_world, context, seed, pictures, {}};
+    pick_until_done(run_state, record);
     return;
   }
   PickRecord unsettled;

@@ -249,6 +249,9 @@ class Suction : public Gripper {
       return;
     }
     cups_.clear();
+    cup.stiffness = 100;
+    cup.preload = 0.3;
+    cup.stroke = 0.020;  // a long spring plunger: the tool may lean 10 degrees off a ring's face (max_lean)
     for (int i = 0; i < 3; ++i) {
       const double angle = 2 * std::numbers::pi * i / 3, pitch_radius = 0.0425;
       cup.X_GU = Pose(Eigen::Translation3d(pitch_radius * std::cos(angle), pitch_radius * std::sin(angle), 0));
