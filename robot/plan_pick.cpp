@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kOwnTolerance = 0.004;  // m, plus three sigma: a heap point this near an estimate's surface is its own
 
-constexpr double kOneCupCare = 0.5;  // share of the acceleration at which a part on a single cup of several is carried
+constexpr double kCare = 0.5;  // share of the acceleration for a part on one cup of several, or taken with a lean
 
 constexpr double kRobotMargin = 0.025;  // m: seen points this near to arm or tool are the robot itself
 
@@ -116,7 +116,7 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
   // Several plungers all hang fully out under a held part, which brings its face square to the tool; a single lip keeps
   // the lean it was pressed on with.
   const bool square = cell.gripper->cups().size() > 1 && candidate.site.cup < 0;
-  task.care = candidate.site.cup < 0 ? 1 : kOneCupCare;
+  task.care = square && candidate.lean == 0 ? 1 : cell.gripper->cups().size() > 1 ? kCare : 1;
   task.X_GP = (square ? leaning(candidate.X_WG, -candidate.lean) : candidate.X_WG).inverse() * candidate.X_WP;
   task.press = config.press + lean_reach(*cell.gripper, candidate.lean);
   task.up_P = candidate.site.X_PK.linear().col(2);

@@ -25,7 +25,7 @@ struct PlanningConfig {
                                ///< mean height error of 2 mm, so that a part believed too high is still touched
   double place_height = 0.01;  ///< m, part's lowest point above the tray floor when it is released
   double min_score = 0.0;      ///< estimates below are not picked
-  double acceleration = 4;  ///< m/s^2 of a held part, and added to gravity when a hold is checked (physical_models B1)
+  double acceleration = 3;  ///< m/s^2 of a held part, and added to gravity when a hold is checked (physical_models B1)
   double safety = 1.5;      ///< load factor of that check
   bool hold_check = true;   ///< false: sites that would peel are tried too, last
   void visit(ConfigVisitor& v);
