@@ -121,7 +121,7 @@ TEST(PickExecution, AFlatBearingIsPlacedInTheTray) {
   const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(top), ExecutionConfig{},
                                               [&](const char* moment, const CellWorld&) { moments.push_back(moment); });
   EXPECT_EQ(to_string(result.outcome), to_string(PickOutcome::kSucceeded)) << result.reason;
-  EXPECT_EQ(moments, (std::vector<std::string>{"held", "released"}));
+  EXPECT_EQ(moments, (std::vector<std::string>{"held", "lifted", "released"}));
   ASSERT_TRUE(result.place_error.has_value());
   EXPECT_LT(*result.place_error, 0.002);
   EXPECT_LT(*result.place_rotation, 0.01);
@@ -230,7 +230,7 @@ TEST(PickExecution, PressingFarBeyondTheSurfaceStopsTheArm) {
   Site site("mz07_three_cups.yaml");
   site.lay({0, 0, 0});
   site.start();
-  const Eigen::Vector3d deep(0, 0, -0.015);  // the plungers' stroke is 10 mm
+  const Eigen::Vector3d deep(0, 0, -0.025);  // the plungers' stroke is 20 mm
   const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(top_of(site, 0) + deep), ExecutionConfig{});
   expect_ended(site, result, PickOutcome::kProtectiveStop);
   EXPECT_GT(result.peak_force, ExecutionConfig{}.protective_force);
