@@ -37,6 +37,7 @@ std::uint64_t hash_of(const Part& part) {
   hasher.add(std::uint64_t{part.pieces_P.size()});
   for (const TriangleMesh& piece : part.pieces_P) add(hasher, piece);
   hasher.add(part.density).add(part.friction).add(part.restitution).add(part.diameter);
+  hasher.add(part.surface.albedo).add(part.surface.specular).add(part.surface.roughness);
   hasher.add(std::uint64_t{part.symmetry.finite.size()}).add(std::uint64_t{part.symmetry.axis.has_value()});
   for (const Pose& member : part.symmetry.finite) hasher.add(member);
   if (part.symmetry.axis) {
@@ -105,6 +106,7 @@ void PartSpec::visit(ConfigVisitor& v) {
   v.field("mass", mass, Unit::kMass, "0: from the density; must be stated when the mesh is open");
   v.field("friction", friction, Unit::kNone, "Coulomb coefficient of the part's surface");
   v.field("restitution", restitution, Unit::kNone, "coefficient of restitution of the part's surface");
+  v.section("surface", surface, "how it returns light");
   v.section("symmetry", symmetry, "rotations that carry the part into itself");
 }
 
@@ -115,6 +117,7 @@ void PartSpec::validate() const {
   require(mass >= 0 && mass <= 1000, "mass", mass, "0 .. 1000 kg");
   require(friction >= 0 && friction <= 2, "friction", friction, "0 .. 2");
   require(restitution >= 0 && restitution <= 1, "restitution", restitution, "0 .. 1");
+  surface.validate();
   symmetry.validate();
 }
 
@@ -148,6 +151,7 @@ Part load_part(const PartSpec& spec) {
   }
   part.friction = spec.friction;
   part.restitution = spec.restitution;
+  part.surface = spec.surface;
   part.symmetry = make_symmetry(spec.symmetry);
   part.diameter = mesh_diameter(part.mesh_P);
   part.box_center_P = bounding_box(part.mesh_P).center();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/material.hpp"
 #include "core/mesh.hpp"
 #include "core/mesh_properties.hpp"
 #include "core/symmetry.hpp"
@@ -20,6 +21,7 @@ struct Part {
   double density = 0;        ///< kg/m^3
   double friction = 0.4;     ///< Coulomb coefficient of the part against itself and the bin (pairs are combined by sim)
   double restitution = 0.1;
+  Material surface;          ///< how it returns light
   Symmetry symmetry;
   double diameter = 0;       ///< m, largest distance between two points of the mesh
   MassProperties mass;       ///< of the envelope
@@ -39,6 +41,7 @@ struct PartSpec {
   double mass = 0;                 ///< kg; 0: from volume and density. Needed when the mesh is open.
   double friction = 0.4;
   double restitution = 0.1;
+  Material surface;
   SymmetrySpec symmetry;
 
   void visit(ConfigVisitor& v);

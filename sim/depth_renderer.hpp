@@ -1,5 +1,5 @@
 // The interface of the exact renderers: scene + camera -> noise-free depth, normals and instance ids in one frame.
-// OSMesa first; a ray caster is the reference later, so that another back end is one file.
+// OSMesa first; a ray caster is the reference; another back end is one file.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct ExactFrame {
   Image<float> depth;               ///< z of C in m; NaN where nothing is
   Image<std::int32_t> ids;          ///< kIdNothing where nothing is
   Image<Eigen::Vector3f> normals_C; ///< unit, of the visible side (towards the camera); zero where nothing is
-  Image<float> albedo;              ///< of what is seen
+  MaterialTable materials;          ///< of what is in the scene, by id
 };
 
 class DepthRenderer {

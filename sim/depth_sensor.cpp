@@ -21,7 +21,10 @@ Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const 
   capture.frame.camera = camera;
   capture.frame.X_WC = X_WC_believed;
   capture.frame.noise = sensor.stated_noise();
-  capture.frame.depth = sensor.capture(capture.exact, camera, camera_seed, frame_seed);
+  const auto from_device = [&](const PinholeCamera& device, const Pose& X_CD, double device_near, double device_far) {
+    return renderer.render(scene, device, X_WC_true * X_CD, device_near, device_far);
+  };
+  capture.frame.depth = sensor.capture(SensorView{capture.exact, camera, from_device, 1}, camera_seed, frame_seed);
   return capture;
 }
 

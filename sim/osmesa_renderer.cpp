@@ -1,4 +1,4 @@
-// OSMesa behind the DepthRenderer interface: eye-space z (R32F), ids (R32I), normals and albedo (RGBA32F) in one pass,
+// OSMesa behind the DepthRenderer interface: eye-space z (R32F), ids (R32I) and normals (RGBA32F) in one pass,
 // with a 32-bit float depth buffer. Eye z is interpolated by the rasteriser, so nothing is linearised afterwards.
 
 #include <algorithm>
@@ -35,7 +35,6 @@ in vec3 p_C;
 uniform mat3 R_CO;
 uniform samplerBuffer normals_O;
 uniform int id;
-uniform float albedo;
 layout(location = 0) out float seen_z;
 layout(location = 1) out int seen_id;
 layout(location = 2) out vec4 seen_normal;
@@ -44,7 +43,7 @@ void main() {
   if (dot(n_C, p_C) > 0.0) n_C = -n_C;
   seen_z = p_C.z;
   seen_id = id;
-  seen_normal = vec4(n_C, albedo);
+  seen_normal = vec4(n_C, 0.0);
 }
 )";
 
@@ -107,7 +106,7 @@ class OsmesaRenderer : public DepthRenderer {
       : meshes_(context_), target_(context_), program_(context_.make_program(kVertexShader, kFragmentShader)) {
     const GlFunctions& gl = context_.use();
     const auto at = [&](const char* name) { return gl.GetUniformLocation(program_, name); };
-    at_ = {at("X_CO"), at("R_CO"), at("scale"), at("shift"), at("depth"), at("normals_O"), at("id"), at("albedo")};
+    at_ = {at("X_CO"), at("R_CO"), at("scale"), at("shift"), at("depth"), at("normals_O"), at("id")};
   }
 
   ExactFrame render(const RenderScene& scene, const PinholeCamera& camera, const Pose& X_WC, double near,
@@ -118,6 +117,7 @@ class OsmesaRenderer : public DepthRenderer {
     const Pose X_CW = X_WC.inverse();
     for (const RenderItem& item : scene.items) draw(item, X_CW * item.X_WO);
     ExactFrame frame = read(camera.width, camera.height);
+    frame.materials = MaterialTable(scene);
     context_.check("render");
     return frame;
   }
@@ -130,7 +130,7 @@ class OsmesaRenderer : public DepthRenderer {
 
  private:
   struct Uniforms {
-    GLint X_CO, R_CO, scale, shift, depth, normals_O, id, albedo;
+    GLint X_CO, R_CO, scale, shift, depth, normals_O, id;
   };
 
   void begin(const PinholeCamera& camera, double near, double far) {
@@ -164,7 +164,6 @@ class OsmesaRenderer : public DepthRenderer {
     gl.UniformMatrix4fv(at_.X_CO, 1, GL_FALSE, X.data());
     gl.UniformMatrix3fv(at_.R_CO, 1, GL_FALSE, R.data());
     gl.Uniform1i(at_.id, item.id);
-    gl.Uniform1f(at_.albedo, item.albedo);
     gl.BindTexture(GL_TEXTURE_BUFFER, mesh.normal_texture);
     gl.BindVertexArray(mesh.vertex_array);
     gl.DrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
@@ -178,7 +177,6 @@ class OsmesaRenderer : public DepthRenderer {
     frame.depth = Image<float>(width, height);
     frame.ids = Image<std::int32_t>(width, height);
     frame.normals_C = Image<Eigen::Vector3f>(width, height, Eigen::Vector3f::Zero());
-    frame.albedo = Image<float>(width, height);
     Image<Eigen::Vector4f> normals(width, height, Eigen::Vector4f::Zero());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl.ReadPixels(0, 0, width, height, GL_RED, GL_FLOAT, frame.depth.data());
@@ -191,7 +189,6 @@ class OsmesaRenderer : public DepthRenderer {
         frame.depth[i] = std::numeric_limits<float>::quiet_NaN();
       } else {
         frame.normals_C[i] = normals[i].head<3>().normalized();
-        frame.albedo[i] = normals[i].w();
       }
     }
     return frame;

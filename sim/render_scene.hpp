@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/material.hpp"
 #include "core/mesh.hpp"
 #include "core/pose.hpp"
 
@@ -22,11 +23,32 @@ struct RenderItem {
   std::shared_ptr<const TriangleMesh> mesh_O;
   Pose X_WO = Pose::Identity();
   std::int32_t id = kIdNothing;
-  float albedo = 0.6f;  ///< diffuse reflectance, 0 .. 1
+  Material material;  ///< items that share an id share it
 };
 
 struct RenderScene {
   std::vector<RenderItem> items;
+};
+
+/// Materials by id; an id that was never set has the default material.
+class MaterialTable {
+ public:
+  MaterialTable() = default;
+  explicit MaterialTable(const RenderScene& scene) {
+    for (const RenderItem& item : scene.items) set(item.id, item.material);
+  }
+  void set(std::int32_t id, const Material& material) {
+    if (id < 0) return;
+    if (static_cast<std::size_t>(id) >= by_id_.size()) by_id_.resize(static_cast<std::size_t>(id) + 1);
+    by_id_[static_cast<std::size_t>(id)] = material;
+  }
+  const Material& operator[](std::int32_t id) const {
+    static const Material standard;
+    return id >= 0 && static_cast<std::size_t>(id) < by_id_.size() ? by_id_[static_cast<std::size_t>(id)] : standard;
+  }
+
+ private:
+  std::vector<Material> by_id_;
 };
 
 }  // namespace binpick

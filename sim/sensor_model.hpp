@@ -3,6 +3,7 @@
 // chooses it with `sensor: {type: disparity, preset: d435_848}`.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,17 @@
 #include "sim/depth_renderer.hpp"
 
 namespace binpick {
+
+/// What a model may look at. `exact` is the frame of its camera; a model with a second imager or a projector draws the
+/// same scene from those too.
+struct SensorView {
+  const ExactFrame& exact;
+  const PinholeCamera& camera;
+  /// The scene from a device that stands at X_CD, between near and far (m) of that device; empty where a test has no
+  /// scene.
+  std::function<ExactFrame(const PinholeCamera& device, const Pose& X_CD, double near, double far)> from_device;
+  int threads = 1;  ///< a model may use as many; its result does not depend on the number
+};
 
 class SensorModel {
  public:
@@ -28,8 +40,11 @@ class SensorModel {
   virtual StatedNoise stated_noise() const = 0;
   /// `camera_seed` fixes what stays with the unit (bias, the fixed share of the noise), `frame_seed` what changes.
   /// Depth lies on the sensor's own grid, NaN = no return, and no value depends on the order of pixels.
-  virtual Image<float> capture(const ExactFrame& exact, const PinholeCamera& camera, Seed camera_seed,
-                               Seed frame_seed) const = 0;
+  virtual Image<float> capture(const SensorView& view, Seed camera_seed, Seed frame_seed) const = 0;
+  /// The same from an exact frame alone, for models that need no other view.
+  Image<float> capture(const ExactFrame& exact, const PinholeCamera& camera, Seed camera_seed, Seed frame_seed) const {
+    return capture(SensorView{exact, camera, {}, 1}, camera_seed, frame_seed);
+  }
 };
 
 /// One row of the table of sensor models.

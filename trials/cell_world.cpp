@@ -9,7 +9,7 @@
 namespace binpick {
 namespace {
 
-constexpr float kMetal = 0.6f, kDark = 0.25f, kGrey = 0.4f;  // reflectance
+constexpr Material kMetal{0.6, 0, 0.3}, kDark{0.25, 0, 0.3}, kGrey{0.4, 0, 0.3};
 constexpr double kProbeBack = 0.010;                         // m: how far behind the lip a probe ray starts
 constexpr double kProbeRange = 0.035;                        // m
 constexpr std::size_t kFirstMovingLink = 2;                  // the base and the first link stand on the table
@@ -106,7 +106,8 @@ RenderScene CellWorld::render_scene() const {
   RenderScene scene;
   for (std::size_t i = 0; i < heap_.bodies.size(); ++i)
     if (world_.present(heap_.bodies[i]))
-      scene.items.push_back({part_meshes_[heap_.parts[i]], part_pose(i), static_cast<std::int32_t>(i), kMetal});
+      scene.items.push_back(
+          {part_meshes_[heap_.parts[i]], part_pose(i), static_cast<std::int32_t>(i), part_of(i).surface});
   add_items_of_cell(scene);
   return scene;
 }

@@ -19,7 +19,7 @@ void drop_returns(const StereoView& view, const Dropout& dropout, const Rng& rng
     const auto source = static_cast<std::size_t>(image.source[i]);
     const double cosine = view.cos_incidence(source);
     const double z = view.exact.depth[source];
-    double light = view.exact.albedo[source] * cosine / (z * z);
+    double light = view.exact.materials[view.exact.ids[source]].albedo * cosine / (z * z);
     if (dropout.lobe > 0) light += dropout.lobe * std::pow(cosine, dropout.lobe_exponent);
     const double beyond = (std::acos(cosine) - dropout.grazing_angle) / dropout.grazing_width;
     const bool certain = light < dropout.return_low || light > dropout.return_high;

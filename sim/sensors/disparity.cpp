@@ -108,8 +108,7 @@ class DisparitySensor : public SensorModel {
   StatedNoise stated_noise() const override {
     return {0, 0, p_.subpixel_noise / (p_.camera.fx * p_.baseline), static_cast<double>(p_.fattening)};
   }
-  Image<float> capture(const ExactFrame& exact, const PinholeCamera& camera, Seed camera_seed,
-                       Seed frame_seed) const override;
+  Image<float> capture(const SensorView& seen, Seed camera_seed, Seed frame_seed) const override;
 
  private:
   Image<std::uint8_t> hidden(const StereoView& view) const;
@@ -216,9 +215,8 @@ Image<float> DisparitySensor::to_depth(const StereoView& view, const Image<float
   return depth;
 }
 
-Image<float> DisparitySensor::capture(const ExactFrame& exact, const PinholeCamera& camera, Seed camera_seed,
-                                      Seed frame_seed) const {
-  const StereoView view{exact, camera, p_.baseline};
+Image<float> DisparitySensor::capture(const SensorView& seen, Seed camera_seed, Seed frame_seed) const {
+  const StereoView view{seen.exact, seen.camera, p_.baseline};
   DisparityImage image = jittered_samples(view, p_.lateral_jitter, hidden(view), frame_seed.child("jitter").rng());
   grow_foreground(view, p_.fattening, image);
   drop_returns(view, p_.dropout, frame_seed.child("dropout").rng(), image);

@@ -75,7 +75,9 @@ class GaussZSensor : public SensorModel {
   double z_max() const override { return p_.grid.z_max; }
   StatedNoise stated_noise() const override { return {p_.constant, p_.linear, p_.quadratic, 0}; }
 
-  Image<float> capture(const ExactFrame& exact, const PinholeCamera& camera, Seed, Seed frame_seed) const override {
+  Image<float> capture(const SensorView& view, Seed, Seed frame_seed) const override {
+    const ExactFrame& exact = view.exact;
+    const PinholeCamera& camera = view.camera;
     const Rng noise = frame_seed.child("gauss_z").rng();
     Image<float> depth(exact.depth.width(), exact.depth.height());
     for (int v = 0; v < depth.height(); ++v)

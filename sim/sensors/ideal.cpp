@@ -22,7 +22,8 @@ class IdealSensor : public SensorModel {
   double z_max() const override { return z_max_; }
   StatedNoise stated_noise() const override { return {}; }
 
-  Image<float> capture(const ExactFrame& exact, const PinholeCamera&, Seed, Seed) const override {
+  Image<float> capture(const SensorView& view, Seed, Seed) const override {
+    const ExactFrame& exact = view.exact;
     Image<float> depth(exact.depth.width(), exact.depth.height());
     for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = on_grid(exact.depth[i], {0, z_min_, z_max_});
     return depth;

@@ -34,7 +34,7 @@ std::shared_ptr<const TriangleMesh> share(TriangleMesh mesh) {
 }
 
 RenderItem item(TriangleMesh mesh, const Pose& X_WO, std::int32_t id) {
-  return {share(std::move(mesh)), X_WO, id, 0.5f};
+  return {share(std::move(mesh)), X_WO, id, Material{0.5, 0, 0.3}};
 }
 
 Pose at(double x, double y, double z) {
@@ -65,7 +65,7 @@ TEST_F(Renderer, FrontalPlaneIsExactAtEveryPixel) {
     ASSERT_NEAR(frame.depth[i], 0.6, 1e-6) << i;
     ASSERT_EQ(frame.ids[i], 3);
     ASSERT_NEAR(frame.normals_C[i].z(), -1, 1e-6);
-    ASSERT_FLOAT_EQ(frame.albedo[i], 0.5f);
+    ASSERT_EQ(frame.materials[frame.ids[i]].albedo, 0.5);
   }
 }
 
@@ -126,7 +126,7 @@ TEST_F(Renderer, AgreesWithTheZBuffer) {
   for (int i = 0; i < 14; ++i) {
     Pose X_WP = at(rng.uniform(-0.18, 0.18), rng.uniform(-0.13, 0.13), rng.uniform(0.03, 0.12));
     X_WP.linear() = rng.rotation().toRotationMatrix();
-    scene.items.push_back({i % 2 ? ball : can, X_WP, i, 0.5f});
+    scene.items.push_back({i % 2 ? ball : can, X_WP, i, Material{0.5, 0, 0.3}});
   }
   const ExactFrame frame = renderer_->render(scene, camera, X_WC, 0.1, 2);
   ZBuffer reference(camera, 0.1);

@@ -31,7 +31,7 @@ Pose at(double x, double y, double z) {
 }
 
 RenderItem item(TriangleMesh mesh, const Pose& X_WO, std::int32_t id) {
-  return {std::make_shared<const TriangleMesh>(std::move(mesh)), X_WO, id, 0.6f};
+  return {std::make_shared<const TriangleMesh>(std::move(mesh)), X_WO, id, {}};
 }
 
 class SensorContract : public testing::TestWithParam<Variant> {

@@ -124,8 +124,8 @@ TEST(DisparityPreset, FlatPartHasItsHeightAndItsOutlineGrows) {
   };
   const auto share = [](TriangleMesh mesh) { return std::make_shared<const TriangleMesh>(std::move(mesh)); };
   RenderScene scene;
-  scene.items = {{share(mesh_of(Primitive::box({2, 2, 0.01}))), at(0.605), kIdTable, 0.6f},
-                 {share(mesh_of(Primitive::box({0.1, 0.06, 0.04}))), at(0.58), 0, 0.6f}};  // its face at 0.56 m
+  scene.items = {{share(mesh_of(Primitive::box({2, 2, 0.01}))), at(0.605), kIdTable, {}},
+                 {share(mesh_of(Primitive::box({0.1, 0.06, 0.04}))), at(0.58), 0, {}}};  // its face at 0.56 m
   const ExactFrame exact = make_osmesa_renderer()->render(scene, camera, Pose::Identity(), 0.05, 2);
   const auto sensor = test::sensor("disparity", "", "bias_sigma: 0\n");
   double error = 0, columns = 0;

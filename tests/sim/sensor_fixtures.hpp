@@ -25,7 +25,7 @@ inline PinholeCamera cropped(PinholeCamera camera, int width, int height) {
 inline ExactFrame nothing(const PinholeCamera& camera) {
   const int w = camera.width, h = camera.height;
   return {Image<float>(w, h, std::numeric_limits<float>::quiet_NaN()), Image<std::int32_t>(w, h, kIdNothing),
-          Image<Eigen::Vector3f>(w, h, Eigen::Vector3f::Zero()), Image<float>(w, h, 0.0f)};
+          Image<Eigen::Vector3f>(w, h, Eigen::Vector3f::Zero()), {}};
 }
 
 /// Draws the plane through (0, 0, z) whose normal leans by `tilt` about y, in columns u0 <= u < u1, over what is there.
@@ -37,7 +37,6 @@ inline void add_wall(ExactFrame& frame, const PinholeCamera& camera, double z, d
       frame.depth(u, v) = static_cast<float>(n.z() * z / n.dot(camera.ray(u, v)));
       frame.ids(u, v) = 0;
       frame.normals_C(u, v) = n.cast<float>();
-      frame.albedo(u, v) = 0.6f;
     }
 }
 
