@@ -51,6 +51,7 @@ Action add_campaign(CLI::App& app) {
   command->add_option("scene", options->campaign.scene, "scene file (YAML)")->required();
   command->add_option("--seeds", options->seeds, "A:B, the seeds A to B-1")->required();
   command->add_option("--out", options->campaign.out, "run folder")->required();
+  add_sensor_option(*command, options->campaign.overrides.sensor);
   command->add_option("--workers", options->campaign.workers, "worker processes")->check(CLI::Range(1, 256));
   command->add_option("--pictured", options->campaign.pictured,
                       "looks pictured per trial (failed picks always are); -1: no pictures at all");

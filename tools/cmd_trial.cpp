@@ -11,12 +11,12 @@ namespace binpick {
 namespace {
 
 struct Options {
-  std::string scene, out;
+  std::string scene, out, sensor;
   std::uint64_t seed = 0;
 };
 
 int run(const Options& options) {
-  Scenario scenario = read_scenario(options.scene);
+  Scenario scenario = read_scenario(options.scene, {options.sensor});
   TrialContext context = make_trial_context(scenario);
   std::unique_ptr<TrialPictures> pictures;
   if (!options.out.empty()) {
@@ -40,12 +40,17 @@ int run(const Options& options) {
 
 }  // namespace
 
+void add_sensor_option(CLI::App& command, std::string& sensor) {
+  command.add_option("--sensor", sensor, "NAME or NAME:PRESET, in place of the scene's sensor and intrinsics");
+}
+
 Action add_trial(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("trial", "one trial: drop, see, estimate, pick, score; replays any record");
   command->add_option("scene", options->scene, "scene file (YAML)")->required();
   command->add_option("--seed", options->seed, "seed of the trial")->required();
   command->add_option("--out", options->out, "folder for the record and pictures of every look and pick");
+  add_sensor_option(*command, options->sensor);
   return [options] { return run(*options); };
 }
 

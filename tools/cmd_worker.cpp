@@ -12,6 +12,7 @@ Action add_worker(CLI::App& app) {
   CLI::App* command = app.add_subcommand("worker", "used by campaign: seeds in, records out");
   command->group("");  // not for people
   command->add_option("scene", options->scene, "scene file (YAML)")->required();
+  add_sensor_option(*command, options->overrides.sensor);
   command->add_option("--artifacts", options->artifacts, "folder for pictures");
   command->add_option("--pictured", options->pictured, "looks pictured per trial");
   return [options] {

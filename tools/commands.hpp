@@ -18,6 +18,9 @@ Action add_check(CLI::App& app);
 Action add_estimate(CLI::App& app);
 Action add_list(CLI::App& app);
 
+/// --sensor NAME[:PRESET], as ScenarioOverrides has it.
+void add_sensor_option(CLI::App& command, std::string& sensor);
+
 /// "A:B" means seeds A .. B-1. Throws SpecError.
 std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text);
 

@@ -55,7 +55,7 @@ class Coordinator {
       : options_(options), program_(program), progress_(progress) {}
 
   CampaignResult run() {
-    const Scenario scenario = read_scenario(options_.scene);
+    const Scenario scenario = read_scenario(options_.scene, options_.overrides);
     hash_ = scenario_hash(scenario);
     name_ = scenario.name;
     load_existing();
@@ -89,6 +89,7 @@ class Coordinator {
 
   void start(Worker& worker) {
     std::vector<std::string> arguments = {program_, "worker", options_.scene};
+    if (!options_.overrides.sensor.empty()) arguments.insert(arguments.end(), {"--sensor", options_.overrides.sensor});
     if (options_.pictured >= 0)
       arguments.insert(arguments.end(),
                        {"--artifacts", options_.out + "/artifacts", "--pictured", std::to_string(options_.pictured)});

@@ -9,12 +9,14 @@
 
 #include "core/progress.hpp"
 #include "evaluation/summary.hpp"
+#include "trials/scenario.hpp"
 
 namespace binpick {
 
 struct CampaignOptions {
   std::string scene;
   std::string out;
+  ScenarioOverrides overrides;
   std::uint64_t first_seed = 0, end_seed = 0;  ///< [first, end)
   int workers = 1;
   int pictured = 1;  ///< looks pictured per trial; failed picks always are; negative: no pictures at all

@@ -62,6 +62,15 @@ void visit_sensor(ConfigVisitor& v, Scenario& s) {
   if (!s.sensor) s.sensor = make_sensor(s.sensor_type);
 }
 
+void override_sensor(Scenario& s, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  s.sensor_type = text.substr(0, colon);
+  s.sensor = make_sensor(s.sensor_type);
+  const std::string preset = colon == std::string::npos ? "" : "preset: '" + text.substr(colon + 1) + "'";
+  if (!preset.empty()) read_yaml_text(preset, "--sensor " + text, "", [&](ConfigVisitor& v) { s.sensor->visit(v); });
+  s.cell.camera.has_intrinsics = false;
+}
+
 void visit_estimator(ConfigVisitor& v, Scenario& s) {
   if (v.reading()) s.estimator = nullptr;
   v.section_with(
@@ -141,11 +150,12 @@ int Scenario::part_count() const {
   return total;
 }
 
-Scenario read_scenario(const std::string& path) {
+Scenario read_scenario(const std::string& path, const ScenarioOverrides& overrides) {
   Scenario scenario;
   scenario.file = path;
   read_yaml_file(path, [&](ConfigVisitor& v) {
     scenario.visit(v);
+    if (!overrides.sensor.empty()) override_sensor(scenario, overrides.sensor);
     validate(scenario);
     if (!scenario.cell.camera.has_intrinsics) {
       scenario.cell.camera.intrinsics = scenario.sensor->default_camera();

@@ -57,8 +57,13 @@ struct Scenario {
   int part_count() const;  ///< parts dropped in one trial
 };
 
+/// What the command line may set over the scene file.
+struct ScenarioOverrides {
+  std::string sensor;  ///< NAME or NAME:PRESET; the camera's intrinsics then are the preset's, whatever the scene says
+};
+
 /// Reads, expands and validates a scene. Throws SpecError or AssetError in one line.
-Scenario read_scenario(const std::string& path);
+Scenario read_scenario(const std::string& path, const ScenarioOverrides& overrides = {});
 
 /// Every value, defaults included; paths are relative to `folder`, so that the file replays from there.
 std::string expanded_yaml(const Scenario& scenario, const std::string& folder);

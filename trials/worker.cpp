@@ -10,7 +10,7 @@
 namespace binpick {
 
 void run_worker(const WorkerOptions& options, std::istream& seeds, std::ostream& records) {
-  Scenario scenario = read_scenario(options.scene);
+  Scenario scenario = read_scenario(options.scene, options.overrides);
   TrialContext context = make_trial_context(scenario);
   const nlohmann::ordered_json ready = {
       {"ready", true}, {"scenario_hash", context.hash}, {"renderer", context.renderer->description()}};

@@ -5,10 +5,13 @@
 #include <iosfwd>
 #include <string>
 
+#include "trials/scenario.hpp"
+
 namespace binpick {
 
 struct WorkerOptions {
   std::string scene;
+  ScenarioOverrides overrides;
   std::string artifacts;  ///< folder of pictures, empty: none
   int pictured = 0;       ///< looks of every trial that are pictured; failed picks always are when `artifacts` is set
 };

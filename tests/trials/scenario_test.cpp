@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "core/yaml.hpp"
 
@@ -33,6 +34,18 @@ TEST_P(ScenarioFiles, TheExpandedFileReplays) {
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioFiles,
                          testing::Values("bearing_bin.yaml", "bearing_bin_oracle.yaml", "bracket_bin.yaml",
                                          "tee_bin.yaml"));
+
+TEST(Scenario, SensorOverrideIsTheSensorThatTheFileWouldName) {
+  Scenario scenario = read_scenario(kScenes + "bearing_bin.yaml", {"disparity:d415_1280"});
+  EXPECT_EQ(scenario.cell.camera.intrinsics.width, 1280);
+  EXPECT_EQ(scenario.sensor->z_min(), 0.402);
+  Scenario named = read_scenario(kScenes + "bearing_bin.yaml");
+  EXPECT_NE(scenario_hash(scenario), scenario_hash(named));
+  const Scenario same = read_scenario(kScenes + "bearing_bin.yaml", {"disparity:d435_848"});
+  EXPECT_EQ(scenario_hash(same), scenario_hash(named));
+  EXPECT_THROW(read_scenario(kScenes + "bearing_bin.yaml", {"disparity:d436"}), SpecError);
+  EXPECT_THROW(read_scenario(kScenes + "bearing_bin.yaml", {":d435_848"}), SpecError);
+}
 
 TEST(Scenario, EveryValueIsInTheHash) {
   Scenario scenario = read_scenario(kScenes + "bearing_bin.yaml");
