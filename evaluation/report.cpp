@@ -9,8 +9,10 @@
 namespace binpick {
 namespace {
 
-using Row = std::vector<std::string>;
 using text::fixed;
+using text::markdown_table;
+using text::plain_table;
+using text::Row;
 
 std::string paper_cleared() {
   return std::to_string(paper::kPlaced) + " / " + std::to_string(paper::kDropped) + " = " +
@@ -71,37 +73,6 @@ std::vector<Row> outcome_rows(const CampaignSummary& s) {
                     seeds == s.outcome_seeds.end() ? "" : seed_list(seeds->second)});
   }
   return rows;
-}
-
-std::string markdown_table(const Row& head, const std::vector<Row>& rows) {
-  std::string table = "|", rule = "|";
-  for (const std::string& cell : head) {
-    table += " " + cell + " |";
-    rule += " --- |";
-  }
-  table += "\n" + rule + "\n";
-  for (const Row& row : rows) {
-    table += "|";
-    for (const std::string& cell : row) table += " " + text::markdown(cell) + " |";
-    table += "\n";
-  }
-  return table + "\n";
-}
-
-/// Columns padded to their widest cell, two spaces apart, indented by two.
-std::string plain_table(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string table;
-  for (const Row& row : rows) {
-    std::string line = " ";
-    for (std::size_t i = 0; i < row.size(); ++i) line += " " + row[i] + std::string(widths[i] - row[i].size() + 1, ' ');
-    table += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return table;
 }
 
 std::vector<Row> with_head(const Row& head, std::vector<Row> rows) {

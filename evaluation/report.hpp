@@ -12,6 +12,12 @@ namespace binpick {
 std::string markdown_report(const CampaignSummary& summary);
 /// A short plain-text table for a terminal.
 std::string terminal_table(const CampaignSummary& summary);
+/// One row per campaign, in the given order: what changed between them (sensors, parts, settings) side by side.
+struct NamedSummary {
+  std::string name;
+  CampaignSummary summary;
+};
+std::string side_by_side(std::span<const NamedSummary> campaigns, bool markdown);
 /// One row per pick.
 std::string picks_csv(std::span<const TrialRecord> records);
 /// A self-contained page with the tables, the failure list (each line with its replay command) and the run's pictures

@@ -156,4 +156,34 @@ std::string verdict(const CampaignSummary& summary) {
          "), " + stand + " the paper's " + percent(theirs) + ".";
 }
 
+std::string markdown_table(const Row& head, const std::vector<Row>& rows) {
+  std::string table = "|", rule = "|";
+  for (const std::string& cell : head) {
+    table += " " + cell + " |";
+    rule += " --- |";
+  }
+  table += "\n" + rule + "\n";
+  for (const Row& row : rows) {
+    table += "|";
+    for (const std::string& cell : row) table += " " + markdown(cell) + " |";
+    table += "\n";
+  }
+  return table + "\n";
+}
+
+std::string plain_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string table;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) line += " " + row[i] + std::string(widths[i] - row[i].size() + 1, ' ');
+    table += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return table;
+}
+
 }  // namespace binpick::text

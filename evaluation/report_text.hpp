@@ -32,6 +32,11 @@ std::string relative_url(const std::string& path);
 /// What an outcome means, in one phrase.
 const char* meaning(PickOutcome outcome);
 
+using Row = std::vector<std::string>;
+std::string markdown_table(const Row& head, const std::vector<Row>& rows);
+/// Columns padded to their widest cell, two spaces apart, indented by two.
+std::string plain_table(const std::vector<Row>& rows);
+
 /// One line of the comparison of stage times (paper Table 4): ours in ms; paper < 0: the paper has no such stage.
 struct StageLine {
   std::string name;

@@ -1,5 +1,5 @@
-// binpick report RUN: writes RUN/report.html, results.md, picks.csv and summary.json from the records, prints the
-// table.
+// binpick report RUN...: writes RUN/report.html, results.md, picks.csv and summary.json from the records, prints the
+// table; of several runs one table with a row each.
 
 #include <filesystem>
 #include <fstream>
@@ -24,18 +24,28 @@ double campaign_wall(const std::string& run_folder) {
   return 3600.0 * summary["picks"].value("attempted", 0.0) / per_hour;
 }
 
+CampaignSummary summary_of(const std::string& folder) {
+  if (!std::filesystem::is_directory(folder)) throw SpecError(folder + ": is not a run folder");
+  return write_reports(folder, campaign_wall(folder));
+}
+
 }  // namespace
 
 Action add_report(CLI::App& app) {
-  auto folder = std::make_shared<std::string>();
+  auto folders = std::make_shared<std::vector<std::string>>();
   auto markdown = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("report", "tables and a page from a run folder");
-  command->add_option("run", *folder, "run folder")->required();
+  CLI::App* command = app.add_subcommand("report", "tables and a page from a run folder; several: side by side");
+  command->add_option("run", *folders, "run folders")->required();
   command->add_flag("--markdown", *markdown, "print the Markdown tables instead of the short one");
-  return [folder, markdown] {
-    if (!std::filesystem::is_directory(*folder)) throw SpecError(*folder + ": is not a run folder");
-    const CampaignSummary summary = write_reports(*folder, campaign_wall(*folder));
-    std::cout << (*markdown ? markdown_report(summary) : terminal_table(summary)) << std::flush;
+  return [folders, markdown] {
+    std::vector<NamedSummary> campaigns;
+    for (const std::string& folder : *folders)
+      campaigns.push_back({std::filesystem::path(folder + "/").parent_path().filename().string(), summary_of(folder)});
+    const CampaignSummary& first = campaigns.front().summary;
+    std::cout << (campaigns.size() > 1 ? side_by_side(campaigns, *markdown)
+                  : *markdown          ? markdown_report(first)
+                                       : terminal_table(first))
+              << std::flush;
     return 0;
   };
 }

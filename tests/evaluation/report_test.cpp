@@ -55,6 +55,18 @@ TEST(MarkdownReport, HostileNamesStayInTheirCell) {
   EXPECT_THAT(report, Not(HasSubstr("\n# head")));
 }
 
+TEST(SideBySide, OneRowACampaignInTheOrderGiven) {
+  const std::vector<TrialRecord> all = campaign();
+  const std::vector<NamedSummary> campaigns = {{"b|2", summarise({&all[1], 1}, 0)}, {"a1", summarise(all, 0)}};
+  const std::string table = side_by_side(campaigns, true);
+  EXPECT_EQ(count(table, "\n"), 5u);  // head, rule, two rows, a blank line
+  EXPECT_LT(table.find("b\\|2 | 1 |"), table.find("| a1 | 2 |"));
+  EXPECT_THAT(table, HasSubstr("9 / 10 = 90.0 %"));
+  EXPECT_THAT(table, HasSubstr("19 / 20 = 95.0 %"));
+  EXPECT_THAT(table, HasSubstr("| 1.00 / 1.00 |"));  // every error is 1 mm
+  EXPECT_EQ(count(side_by_side(campaigns, false), "\n"), 3u);
+}
+
 TEST(TerminalTable, IsShortAndPlain) {
   const std::string table = terminal_table(summarise(campaign(), 1000));
   EXPECT_THAT(table, HasSubstr("bearing_bin, 2 trials. 95.0 % of 20 parts cleared"));
