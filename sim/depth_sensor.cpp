@@ -20,7 +20,7 @@ Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const 
   capture.visibility = part_visibility(renderer, scene, capture.exact, camera, X_WC_true, parts);
   capture.frame.camera = camera;
   capture.frame.X_WC = X_WC_believed;
-  capture.frame.noise = sensor.stated_noise();
+  capture.frame.noise = sensor.stated_noise(camera);
   const auto from_device = [&](const PinholeCamera& device, const Pose& X_CD, double device_near, double device_far) {
     return renderer.render(scene, device, X_WC_true * X_CD, device_near, device_far);
   };

@@ -31,13 +31,15 @@ class SensorModel {
   virtual ~SensorModel() = default;
   virtual void visit(ConfigVisitor& v) = 0;  ///< its parameters
   virtual void validate() const = 0;         ///< throws SpecError
+  /// What `preset:` may say; empty for a model without presets.
+  virtual std::vector<std::string> presets() const { return {}; }
   /// The intrinsics of its preset, used when the scene's camera gives none.
   virtual PinholeCamera default_camera() const = 0;
   /// Depth range in m that the model delivers; the renderer's near and far planes follow it.
   virtual double z_min() const = 0;
   virtual double z_max() const = 0;
-  /// The noise its data sheet states.
-  virtual StatedNoise stated_noise() const = 0;
+  /// The noise its data sheet states, seen through the intrinsics that are in use (stereo: s / (f B)).
+  virtual StatedNoise stated_noise(const PinholeCamera& camera) const = 0;
   /// `camera_seed` fixes what stays with the unit (bias, the fixed share of the noise), `frame_seed` what changes.
   /// Depth lies on the sensor's own grid, NaN = no return, and no value depends on the order of pixels.
   virtual Image<float> capture(const SensorView& view, Seed camera_seed, Seed frame_seed) const = 0;

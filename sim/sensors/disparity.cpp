@@ -12,8 +12,13 @@
 // g is a Gaussian field of variance 1 whose fixed share belongs to the camera and does not average out over frames; the
 // bias is drawn once for each camera. f is the scene camera's fx, so f B follows the resolution.
 //
-// Presets: `d435_848` (default) and `d415_1280` are calibrated units; `.._out_of_box` has bias_sigma 0.3, ripple 0.1
-// and depth_unit 1 mm (at 0.6 m a bias of 0.3 px is 5 mm: only calibration can undo it).
+// Presets, by camera and width: `d435_848` (default), `d435_1280`, `d415_1280`, `d405_848`, `d405_1280`, `d455_848` are
+// calibrated units; f, B, z_min, z_max and s are rows of camera_table.cpp, everything else is the same. `.._out_of_box`
+// (D435 and D415) has bias_sigma 0.3, ripple 0.1 and depth_unit 1 mm (at 0.6 m a bias of 0.3 px is 5 mm: only
+// calibration can undo it).
+//
+// What it cannot do: it matches nothing, so that neither texture, nor repetition, nor a highlight that differs between
+// the two views causes a wrong match; a surface that is lost is lost by angle and brightness alone.
 //
 // | key                | d435_848 | d415_1280 | unit | meaning and source
 // | ------------------ | -------- | --------- | ---- | ------------------------------------------------------
@@ -41,7 +46,7 @@
 // | disparity_step     | 1/32     | same      | px   | 0 for none (A1)
 // | depth_unit         | 0.1 mm   | same      | m    | 0 for none (A3.3)
 // | z_min              | 0.171 m  | 0.402 m   | m    | f B / 126 (A1, A2)
-// | z_max              | 2 m      | same      | m    | range of use (A3.3)
+// | z_max              | 2 m      | same      | m    | range of use (A3.3); D405: 1 m
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +59,7 @@
 #include "sim/noise/mixed_pixels.hpp"
 #include "sim/noise/sampling.hpp"
 #include "sim/noise/second_view.hpp"
+#include "sim/sensors/camera_table.hpp"
 #include "sim/sensors/models.hpp"
 
 namespace binpick {
@@ -62,8 +68,8 @@ namespace {
 constexpr double kLargestTan2 = 32.16;  // tan^2(80 deg): beyond, the incidence factor grows no more
 
 struct DisparityParameters {
-  double baseline = 0.0501;
-  double subpixel_noise = 0.08;
+  double baseline = 0;
+  double subpixel_noise = 0;
   CorrelatedField field;
   double incidence_gain = 0.1;
   double bias_mean = 0, bias_sigma = 0.03;
@@ -77,20 +83,25 @@ struct DisparityParameters {
   Dropout dropout;
   bool median = true;
   double disparity_step = 1.0 / 32;
-  DepthGrid grid{1e-4, 0.171, 2.0};
+  DepthGrid grid{1e-4, 0, 0};
   PinholeCamera camera;  // of the preset
 };
 
-const std::vector<std::string> kPresets = {"d435_848", "d435_848_out_of_box", "d415_1280", "d415_1280_out_of_box"};
+const std::string kOutOfBox = "_out_of_box";
+const std::vector<std::string> kPresets = {"d435_848",  "d435_848_out_of_box",  "d435_1280", "d435_1280_out_of_box",
+                                           "d415_1280", "d415_1280_out_of_box", "d405_848",  "d405_1280",
+                                           "d455_848"};
 
 DisparityParameters preset_values(const std::string& preset) {
+  const bool out_of_box = preset.ends_with(kOutOfBox);
+  const DepthCamera& row = depth_camera(out_of_box ? preset.substr(0, preset.size() - kOutOfBox.size()) : preset);
   DisparityParameters p;
-  if (preset.starts_with("d415")) {
-    p.baseline = 0.055;
-    p.grid.z_min = 0.402;
-    p.camera = {1280, 720, 920, 920, 639.5, 359.5};
-  }
-  if (preset.ends_with("_out_of_box")) {
+  p.baseline = row.baseline;
+  p.subpixel_noise = row.subpixel_noise;
+  p.grid.z_min = row.z_min;
+  p.grid.z_max = row.z_max;
+  p.camera = row.camera;
+  if (out_of_box) {
     p.bias_sigma = 0.3;
     p.ripple = 0.1;
     p.grid.unit = 1e-3;
@@ -105,8 +116,9 @@ class DisparitySensor : public SensorModel {
   PinholeCamera default_camera() const override { return p_.camera; }
   double z_min() const override { return p_.grid.z_min; }
   double z_max() const override { return p_.grid.z_max; }
-  StatedNoise stated_noise() const override {
-    return {0, 0, p_.subpixel_noise / (p_.camera.fx * p_.baseline), static_cast<double>(p_.fattening)};
+  std::vector<std::string> presets() const override { return kPresets; }
+  StatedNoise stated_noise(const PinholeCamera& camera) const override {
+    return {0, 0, p_.subpixel_noise / (camera.fx * p_.baseline), static_cast<double>(p_.fattening)};
   }
   Image<float> capture(const SensorView& seen, Seed camera_seed, Seed frame_seed) const override;
 
@@ -116,7 +128,7 @@ class DisparitySensor : public SensorModel {
   Image<float> to_depth(const StereoView& view, const Image<float>& disparity) const;
 
   std::string preset_ = kPresets.front();
-  DisparityParameters p_;
+  DisparityParameters p_ = preset_values(preset_);
 };
 
 void DisparitySensor::visit(ConfigVisitor& v) {

@@ -20,7 +20,7 @@ class IdealSensor : public SensorModel {
   PinholeCamera default_camera() const override { return {}; }
   double z_min() const override { return z_min_; }
   double z_max() const override { return z_max_; }
-  StatedNoise stated_noise() const override { return {}; }
+  StatedNoise stated_noise(const PinholeCamera&) const override { return {}; }
 
   Image<float> capture(const SensorView& view, Seed, Seed) const override {
     const ExactFrame& exact = view.exact;

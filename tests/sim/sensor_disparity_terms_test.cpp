@@ -23,7 +23,7 @@ TEST(DisparityOutline, ForegroundGrowsByTheStatedPixels) {
       const bool plate = u >= 80 - radius && u < 120 + radius;
       ASSERT_NEAR(depth(u, 5), plate ? 0.5 : 0.6, 1e-3) << radius << " " << u;
     }
-    EXPECT_EQ(sensor->stated_noise().fattening_px, radius);
+    EXPECT_EQ(sensor->stated_noise(PinholeCamera{}).fattening_px, radius);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(DisparityPreset, DefaultFillsAFrontalWall) {
   for (int v = 0; v < camera.height; ++v)
     for (int u = out_of_view; u < camera.width; ++u) valid += !std::isnan(depth(u, v));
   EXPECT_NEAR(static_cast<double>(valid) / (480.0 * (848 - out_of_view)), 0.995, 0.002);
-  EXPECT_NEAR(sensor->stated_noise().sigma(0.7), 1.82e-3, 0.01e-3);
+  EXPECT_NEAR(sensor->stated_noise(PinholeCamera{}).sigma(0.7), 1.82e-3, 0.01e-3);
 }
 
 // A plate lying on a table, through the real renderer and every term of the default preset.

@@ -18,7 +18,7 @@ TEST(GaussZ, StereoSigma) {
   for (const double z : {0.5, 0.7, 1.0}) {
     const double sigma = z * z * 0.08 / (430.1 * 0.0501);
     EXPECT_NEAR(wall_sigma(*sensor, camera, z), sigma, 0.02 * sigma);  // 30000 samples: 0.4 % of sampling error
-    EXPECT_DOUBLE_EQ(sensor->stated_noise().sigma(z), sigma);
+    EXPECT_DOUBLE_EQ(sensor->stated_noise(camera).sigma(z), sigma);
   }
 }
 
@@ -32,6 +32,40 @@ TEST(GaussZ, VA3_KinectCurve) {
   const double slanted = 75 * M_PI / 180;
   // 0.0001 / sqrt(1) x (75 / 15)^2 = 2.5 mm more.
   EXPECT_NEAR(wall_sigma(*sensor, narrow, 1.0, slanted), 1.88e-3 + 2.5e-3, 0.05 * 4.38e-3);
+}
+
+TEST(GaussZ, SigmaOfEveryPresetWhereItsSourceStatesOne) {
+  const struct {
+    const char* preset;
+    double z, sigma;
+  } stated[] = {{"azure_kinect", 0.4, 0.5e-3}, {"azure_kinect", 0.7, 0.7e-3}, {"azure_kinect", 1.5, 1.5e-3},
+                {"zivid_2", 0.7, 0.055e-3},    {"phoxi_m", 0.65, 0.10e-3},    {"sigma_0.5mm", 0.3, 0.5e-3},
+                {"sigma_0.5mm", 1.8, 0.5e-3}};
+  for (const auto& s : stated) {
+    const auto sensor = test::sensor("gauss_z", std::string("depth_unit: 0\npreset: ") + s.preset);
+    const PinholeCamera camera = test::cropped(sensor->default_camera(), 200, 150);
+    EXPECT_NEAR(wall_sigma(*sensor, camera, s.z), s.sigma, 0.02 * s.sigma) << s.preset << " at " << s.z;
+  }
+}
+
+// BlenderProc's two rules for the Azure Kinect: the rim of a step deeper than 0.8 m, and what is darker than 15/255.
+TEST(GaussZ, AzureLosesDeepRimsAndDarkPixels) {
+  const auto sensor = test::sensor("gauss_z", "preset: azure_kinect\n");
+  const PinholeCamera camera = test::cropped(sensor->default_camera(), 60, 20);
+  for (const double behind : {1.35, 1.45}) {  // 0.75 and 0.85 m behind the plate
+    ExactFrame exact = test::wall(camera, behind);
+    test::add_wall(exact, camera, 0.6, 0, 20, 40);
+    const Image<float> depth = sensor->capture(exact, camera, Seed{1}, Seed{2});
+    for (int u = 0; u < 60; ++u) {
+      const bool rim = u == 19 || u == 20 || u == 39 || u == 40;
+      EXPECT_EQ(std::isnan(depth(u, 10)), rim && behind > 1.4) << u << " before " << behind;
+    }
+  }
+  ExactFrame exact = test::wall(camera, 0.6);
+  exact.materials.set(0, Material{0.055, 0, 0.3});
+  EXPECT_EQ(test::fill(sensor->capture(exact, camera, Seed{1}, Seed{2})), 0);
+  exact.materials.set(0, Material{0.062, 0, 0.3});
+  EXPECT_EQ(test::fill(sensor->capture(exact, camera, Seed{1}, Seed{2})), 1);
 }
 
 TEST(GaussZ, NoiseIsWhite) {
