@@ -16,6 +16,7 @@ Action add_worker(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_estimate(CLI::App& app);
+Action add_render(CLI::App& app);
 Action add_list(CLI::App& app);
 
 /// --sensor NAME[:PRESET], as ScenarioOverrides has it.

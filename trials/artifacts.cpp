@@ -95,6 +95,30 @@ Image<Rgb> depth_picture(const DepthFrame& frame) {
   return picture;
 }
 
+double noise_scale(const StatedNoise& noise, double z) {
+  constexpr double kWithoutSheet = 1e-3;
+  return noise.sigma(z) > 0 ? 3 * noise.sigma(z) : kWithoutSheet;
+}
+
+Image<Rgb> noise_picture(const DepthFrame& frame, const Image<float>& exact_depth) {
+  Image<Rgb> picture(frame.depth.width(), frame.depth.height(), Rgb{0, 0, 0});
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    const double z = exact_depth[i], seen = frame.depth[i];
+    if (!std::isfinite(z)) {
+      if (std::isfinite(seen)) picture[i] = {255, 0, 255};
+      continue;
+    }
+    if (!std::isfinite(seen)) {
+      picture[i] = {90, 90, 90};
+      continue;
+    }
+    const double t = std::clamp((seen - z) / noise_scale(frame.noise, z), -1.0, 1.0);
+    const auto fading = static_cast<std::uint8_t>(std::lround(255 * (1 - std::abs(t))));
+    picture[i] = t > 0 ? Rgb{255, fading, fading} : Rgb{fading, fading, 255};
+  }
+  return picture;
+}
+
 Image<Rgb> overlay_picture(const Image<Rgb>& base, const DepthFrame& frame, const std::vector<PoseEstimate>& estimates,
                            std::span<const Part> parts) {
   const ZBuffer buffer = drawn(frame, estimates, parts);

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "sim/depth_sensor.hpp"
+#include "trials/observation.hpp"
 
 namespace binpick {
 namespace {
@@ -17,50 +17,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-struct Observation {
-  SceneView view;
-  Pose X_WC_believed;
-  GroundTruth truth;
-};
-
-std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
-  std::vector<DropItem> items;
-  for (std::size_t p = 0; p < s.parts.size(); ++p)
-    for (int k = 0; k < s.parts[p].count; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
-  seed.child("order").rng().shuffle(items);
-  return items;
-}
-
-// What was true when the frame was taken; instances in the tray or on the table are not part of the question.
-GroundTruth truth_of(const CellWorld& cell_world, const Capture& capture, const Pose& X_WC) {
-  GroundTruth truth;
-  truth.X_WC = X_WC;
-  const DropResult& heap = cell_world.heap();
-  for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
-    if (!cell_world.in_bin(i)) continue;
-    const Visibility& visibility = capture.visibility[i];
-    truth.instances.push_back(
-        {heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), visibility.fraction(), visibility.visible_pixels});
-  }
-  return truth;
-}
-
-Observation observe(const Scenario& s, CellWorld& cell_world, TrialContext& context, Seed seed, int pick,
-                    PickRecord& record) {
-  const Pose X_WC = s.cell.camera_pose(cell_world.joints());
-  const Capture capture = capture_depth(*context.renderer, *s.sensor, cell_world.render_scene(),
-                                        cell_world.heap().bodies.size(), s.cell.camera.intrinsics, X_WC, X_WC,
-                                        seed.child("camera"), seed.child("sensor", static_cast<std::uint64_t>(pick)));
-  record.frame_hash = frame_hash(capture.frame);
-  Observation seen;
-  seen.X_WC_believed = capture.frame.X_WC;
-  seen.truth = truth_of(cell_world, capture, X_WC);
-  seen.view.seen = capture.frame;
-  seen.view.bin = s.cell.bin;
-  seen.view.X_CB = capture.frame.X_WC.inverse() * s.cell.X_WB;
-  return seen;
-}
 
 EstimateResult estimate(const Scenario& s, const TrialContext& context, const Observation& seen, Seed seed) {
   return s.estimator ? s.estimator->estimate(seen.view, seed)
@@ -138,14 +94,15 @@ void execute_plan(Run& run, const PickPlan& plan, int pick, PickRecord& record) 
 PickRecord pick_once(Run& run, int pick) {
   PickRecord record;
   record.sim_time = run.s.trial.exposure;
-  const Observation seen = observe(run.s, run.cell_world, run.context, run.seed, pick, record);
+  const Observation seen = observe(run.s, run.cell_world, run.context, run.seed, pick);
+  record.frame_hash = seen.frame_hash;
   const Seed estimator_seed = run.seed.child("estimator", static_cast<std::uint64_t>(pick));
   const EstimateResult found = estimate(run.s, run.context, seen, estimator_seed);
   record.wall = found.wall;
   record.estimates_hash = estimates_hash(found);
   record.check = run.context.checker->check(found, seen.X_WC_believed, seen.truth);  // before the arm moves
   if (run.pictures) {
-    run.pictures->look(pick, *run.context.renderer, run.cell_world, std::get<DepthFrame>(seen.view.seen), found);
+    run.pictures->look(pick, *run.context.renderer, run.cell_world, seen.captures[0].frame, found);
     if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), seen.view, found);
   }
   if (found.status != EstimateStatus::kFound) {
@@ -184,9 +141,7 @@ void pick_until_done(Run& run, TrialRecord& record) {
 
 void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pictures, TrialRecord& record) {
   CellWorld cell_world(s.cell, s.physics, context.parts);
-  const DropResult heap = drop_parts(cell_world.world(), drop_order(s, context, seed.child("drop")), s.cell.bin,
-                                     s.cell.X_WB, s.drop, s.settle, seed.child("drop"));
-  cell_world.set_heap(heap);
+  const DropResult heap = drop_heap(s, context, seed, cell_world);
   record.dropped = static_cast<int>(heap.bodies.size());
   record.escaped = static_cast<int>(heap.escaped.size());
   record.settled = heap.settled;

@@ -58,8 +58,8 @@ class BadSceneTest : public testing::TestWithParam<BadScene> {
 
 TEST_P(BadSceneTest, IsOneLineExitTwoAndNothingWritten) {
   write_file(folder_.path("scene.yaml"), GetParam().text);
-  for (const std::string command : {"trial", "campaign"}) {
-    const std::string seeds = command == "trial" ? " --seed 1" : " --seeds 1:3";
+  for (const std::string command : {"trial", "campaign", "render"}) {
+    const std::string seeds = command == "campaign" ? " --seeds 1:3" : " --seed 1";
     const ProgramRun run =
         run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " + folder_.path("run"));
     EXPECT_EQ(run.code, 2) << run.err;
@@ -107,10 +107,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"not YAML", "part: [\n", {"scene.yaml"}}, BadScene{"empty file", "", {"scene.yaml", "empty"}}));
 
 TEST(BadUsage, EndsWithTwo) {
-  for (const char* arguments : {"", "trail", "trial", "trial x.yaml", "trial x.yaml --seed -1", "trial x.yaml --seed a",
-                                "campaign x.yaml --seeds 5:3 --out y", "campaign x.yaml --seeds 5 --out y",
-                                "campaign x.yaml --seeds 0:2 --out y --workers 0", "report /nonexistent",
-                                "trial /nonexistent.yaml --seed 1", "list sensor"}) {
+  for (const char* arguments :
+       {"", "trail", "trial", "trial x.yaml", "trial x.yaml --seed -1", "trial x.yaml --seed a",
+        "campaign x.yaml --seeds 5:3 --out y", "campaign x.yaml --seeds 5 --out y",
+        "campaign x.yaml --seeds 0:2 --out y --workers 0", "report /nonexistent", "trial /nonexistent.yaml --seed 1",
+        "render x.yaml --seed 1", "render /nonexistent.yaml --seed 1 --out y", "list sensor"}) {
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.code, 2) << arguments << "\n" << run.err;
     EXPECT_FALSE(run.err.empty()) << arguments;
@@ -129,8 +130,8 @@ class Storage : public testing::Test {
 // A file-size limit makes every write fail as a full disk does. It holds for the program alone: what it says leaves
 // through a pipe.
 TEST_F(Storage, AFullDiskEndsWithSix) {
-  for (const std::string command : {"trial", "campaign"}) {
-    const std::string seeds = command == "trial" ? " --seed 1" : " --seeds 1:3";
+  for (const std::string command : {"trial", "campaign", "render"}) {
+    const std::string seeds = command == "campaign" ? " --seeds 1:3" : " --seed 1";
     const ProgramRun run = run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " +
                                            folder_.path("run_" + command) + ") 2>&1 | cat >&2; exit ${PIPESTATUS[0]}",
                                        "(ulimit -f 0");
@@ -144,6 +145,8 @@ TEST_F(Storage, AFullDeviceOnStandardOutputEndsWithSix) {
 }
 
 TEST_F(Storage, AFolderThatCannotBeMadeEndsWithSix) {
+  EXPECT_EQ(run_program("render " + folder_.path("scene.yaml") + " --seed 1 --out " + folder_.path("box.stl/run")).code,
+            6);
   EXPECT_EQ(run_program("trial " + folder_.path("scene.yaml") + " --seed 1 --out " + folder_.path("box.stl/run")).code,
             6);
   EXPECT_EQ(

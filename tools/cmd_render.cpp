@@ -1,0 +1,47 @@
+// binpick render SCENE --seed N [--sensor NAME[:PRESET]] --out DIR: the seed's heap as the camera sees it, as files.
+// The frame is the one that `binpick trial` looks at first.
+
+#include <iostream>
+
+#include "core/error.hpp"
+#include "tools/commands.hpp"
+#include "trials/observation.hpp"
+#include "trials/render_folder.hpp"
+
+namespace binpick {
+namespace {
+
+struct Options {
+  std::string scene, out, sensor;
+  std::uint64_t seed = 0;
+};
+
+int run(const Options& options) {
+  Scenario scenario = read_scenario(options.scene, {options.sensor});
+  TrialContext context = make_trial_context(scenario);
+  CellWorld cell_world(scenario.cell, scenario.physics, context.parts);
+  const DropResult heap = drop_heap(scenario, context, Seed{options.seed}, cell_world);
+  const bool settled = heap.settled && heap.escaped.empty();
+  if (!settled) std::cerr << "note: this heap is not at rest inside its bin; a trial would end as Unsettled\n";
+  const Observation seen = observe(scenario, cell_world, context, Seed{options.seed}, 0);
+  write_render_folder(options.out, scenario, {context.hash, options.seed, settled}, seen.captures.front(), cell_world,
+                      *context.renderer);
+  std::cout << options.out << std::endl;
+  if (!std::cout) throw StorageError("standard output: cannot write");
+  return 0;
+}
+
+}  // namespace
+
+Action add_render(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("render", "one look at a seed's heap: depth, ids, cloud and pictures as files");
+  command->add_option("scene", options->scene, "scene file (YAML)")->required();
+  command->add_option("--seed", options->seed, "seed of the trial whose heap is looked at")->required();
+  command->add_option("--out", options->out, "folder for the files")->required();
+  add_sensor_option(*command, options->sensor);
+  return [options] { return run(*options); };
+}
+
+}  // namespace binpick

@@ -1,0 +1,30 @@
+// What a trial and `binpick render` share: the heap of a seed, and a look at it. The same seed gives the same bits in
+// both.
+#pragma once
+
+#include <vector>
+
+#include "core/ground_truth.hpp"
+#include "core/pose_estimate.hpp"
+#include "sim/depth_sensor.hpp"
+#include "trials/cell_world.hpp"
+#include "trials/scenario.hpp"
+#include "trials/trial_context.hpp"
+
+namespace binpick {
+
+struct Observation {
+  SceneView view;                         ///< what the estimator is given
+  Pose X_WC_believed = Pose::Identity();  ///< of the camera whose frame C the view is in
+  GroundTruth truth;
+  std::vector<Capture> captures;  ///< one a camera
+  std::uint64_t frame_hash = 0;   ///< of all of them
+};
+
+/// Drops the scenario's parts for the trial's seed and lets the arm come to the look pose.
+DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_seed, CellWorld& cell_world);
+
+/// Look number `pick` of the trial, from where the arm stands.
+Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick);
+
+}  // namespace binpick
