@@ -19,7 +19,7 @@ target_link_libraries(binpick_bullet INTERFACE PkgConfig::BULLET)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 
 # Single OpenCV modules, never ${OpenCV_LIBS}: imgcodecs, videoio and ximgproc pull GPL libraries in Debian.
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d)
 
 # Plain PCL libraries by name. Neither ${PCL_LIBRARIES} nor PCL's own imported targets: both drag VTK, Qt and MPI in even
 # for the core components (and with VTK comes GDAL, Poppler and x264).

@@ -7,6 +7,7 @@
 
 namespace binpick {
 
+std::unique_ptr<SensorModel> make_active_stereo_sensor();
 std::unique_ptr<SensorModel> make_ideal_sensor();
 std::unique_ptr<SensorModel> make_gauss_z_sensor();
 std::unique_ptr<SensorModel> make_disparity_sensor();

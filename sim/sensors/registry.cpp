@@ -8,6 +8,7 @@ namespace binpick {
 
 const std::vector<SensorEntry>& sensor_registry() {
   static const std::vector<SensorEntry> entries = {
+      {"active_stereo", "two infrared images with projected dots, matched (RealSense D4xx)", make_active_stereo_sensor},
       {"disparity", "stereo camera, noise made in the disparity domain (RealSense D4xx)", make_disparity_sensor},
       {"gauss_z", "white Gaussian noise on depth: a baseline, too easy for ICP", make_gauss_z_sensor},
       {"ideal", "exact depth", make_ideal_sensor},

@@ -38,31 +38,41 @@ class SensorContract : public testing::TestWithParam<Variant> {
  protected:
   SensorContract() : sensor_(make()), camera_(test::cropped(sensor_->default_camera(), 320, 240)) {
     // A floor at 0.9 m with a ball, a plate, something too near and something too far; the floor ends inside the image.
-    RenderScene scene;
-    scene.items = {item(mesh_of(Primitive::box({0.35, 1, 0.01})), at(-0.02, 0, 0.905), kIdTable),
-                   item(mesh_of(Primitive::sphere(0.05), 64), at(0.03, 0.02, 0.8), 0),
-                   item(mesh_of(Primitive::box({0.1, 0.06, 0.016})), at(-0.07, -0.05, 0.892), 1),
-                   item(mesh_of(Primitive::sphere(0.01)), at(-0.01, 0.02, 0.1), 2),
-                   item(mesh_of(Primitive::box({1, 1, 0.01})), at(0.5, 0, 9.5), kIdBin)};
-    exact_ = make_osmesa_renderer()->render(scene, camera_, Pose::Identity(), 0.02, 12);
+    scene_.items = {item(mesh_of(Primitive::box({0.35, 1, 0.01})), at(-0.02, 0, 0.905), kIdTable),
+                    item(mesh_of(Primitive::sphere(0.05), 64), at(0.03, 0.02, 0.8), 0),
+                    item(mesh_of(Primitive::box({0.1, 0.06, 0.016})), at(-0.07, -0.05, 0.892), 1),
+                    item(mesh_of(Primitive::sphere(0.01)), at(-0.01, 0.02, 0.1), 2),
+                    item(mesh_of(Primitive::box({1, 1, 0.01})), at(0.5, 0, 9.5), kIdBin)};
+    exact_ = renderer_->render(scene_, camera_, Pose::Identity(), 0.02, 12);
   }
   std::unique_ptr<SensorModel> make(const std::string& more = "") const {
     const std::string preset = GetParam().preset.empty() ? "" : "preset: " + GetParam().preset + "\n";
     return test::sensor(GetParam().type, preset + more);
   }
+  /// What `sensor` delivers of `exact`; a second imager or a projector sees `scene`.
+  Image<float> shoot(const SensorModel& sensor, const ExactFrame& exact, const RenderScene& scene, Seed camera_seed,
+                     Seed frame_seed) const {
+    const auto from_device = [&](const PinholeCamera& device, const Pose& X_CD, double near, double far) {
+      return renderer_->render(scene, device, X_CD, near, far);
+    };
+    return sensor.capture(SensorView{exact, camera_, from_device, 1}, camera_seed, frame_seed);
+  }
+  Image<float> shoot(const SensorModel& sensor) const { return shoot(sensor, exact_, scene_, Seed{1}, Seed{2}); }
   Image<float> shoot(std::uint64_t camera = 1, std::uint64_t frame = 2) const {
-    return sensor_->capture(exact_, camera_, Seed{camera}, Seed{frame});
+    return shoot(*sensor_, exact_, scene_, Seed{camera}, Seed{frame});
   }
 
+  std::unique_ptr<DepthRenderer> renderer_ = make_osmesa_renderer();
   std::unique_ptr<SensorModel> sensor_;
   PinholeCamera camera_;
+  RenderScene scene_;
   ExactFrame exact_;
 };
 
 TEST_P(SensorContract, SameSeedsGiveTheSameBits) {
   const Image<float> once = shoot(), again = shoot();
   EXPECT_TRUE(same_bits(once, again));
-  EXPECT_TRUE(same_bits(once, make()->capture(exact_, camera_, Seed{1}, Seed{2})));
+  EXPECT_TRUE(same_bits(once, shoot(*make())));
 }
 
 TEST_P(SensorContract, OtherFrameSeedGivesAnotherImage) {
@@ -79,7 +89,7 @@ TEST_P(SensorContract, NothingOutsideTheRangeAndNothingFromNothing) {
     ASSERT_LE(depth[i], sensor_->z_max());
   }
   EXPECT_GT(valid, depth.size() / 3);
-  const Image<float> empty = sensor_->capture(test::nothing(camera_), camera_, Seed{1}, Seed{2});
+  const Image<float> empty = shoot(*sensor_, test::nothing(camera_), {}, Seed{1}, Seed{2});
   EXPECT_EQ(test::fill(empty), 0);
 }
 
@@ -97,7 +107,7 @@ TEST_P(SensorContract, DepthIsNearTheTruth) {
 
 TEST_P(SensorContract, DepthLiesOnItsGrid) {
   if (GetParam().type == "ideal") GTEST_SKIP() << "has no grid";
-  const Image<float> depth = make("depth_unit: 1 mm\n")->capture(exact_, camera_, Seed{1}, Seed{2});
+  const Image<float> depth = shoot(*make("depth_unit: 1 mm\n"));
   for (const float z : depth) {
     if (!std::isnan(z)) {
       ASSERT_FLOAT_EQ(z, static_cast<float>(std::round(z * 1000) / 1000));
@@ -106,7 +116,10 @@ TEST_P(SensorContract, DepthLiesOnItsGrid) {
 }
 
 // If a value depended on what was drawn for other pixels, emptying the lower rows would change the upper ones.
+// active_stereo is left out: its exposure is metered over the whole image and its matcher smooths along whole rows and
+// columns, so that a pixel rightly depends on all the others. Its own test holds its noise to this rule.
 TEST_P(SensorContract, PixelsDoNotDependOnTheOthersInTheirStreams) {
+  if (GetParam().type == "active_stereo") GTEST_SKIP() << "a matcher looks at the whole image";
   const Image<float> whole = shoot();
   ExactFrame cut = exact_;
   const ExactFrame empty = test::nothing(camera_);
@@ -114,7 +127,7 @@ TEST_P(SensorContract, PixelsDoNotDependOnTheOthersInTheirStreams) {
   std::copy(empty.depth.begin() + from, empty.depth.end(), cut.depth.begin() + from);
   std::copy(empty.ids.begin() + from, empty.ids.end(), cut.ids.begin() + from);
   std::copy(empty.normals_C.begin() + from, empty.normals_C.end(), cut.normals_C.begin() + from);
-  const Image<float> part = sensor_->capture(cut, camera_, Seed{1}, Seed{2});
+  const Image<float> part = shoot(*sensor_, cut, scene_, Seed{1}, Seed{2});
   const std::size_t untouched = from - 8 * static_cast<std::size_t>(camera_.width);  // windows and jitter reach less
   for (std::size_t i = 0; i < untouched; ++i)
     ASSERT_TRUE(whole[i] == part[i] || (std::isnan(whole[i]) && std::isnan(part[i]))) << i;
@@ -124,8 +137,7 @@ TEST_P(SensorContract, WrittenConfigurationIsTheSameSensor) {
   const auto sensor = make(GetParam().type == "ideal" ? "z_max: 3\n" : "z_max: 3\ndepth_unit: 0.5 mm\n");
   const std::string text = write_yaml([&](ConfigVisitor& v) { sensor->visit(v); });
   const auto back = test::sensor(GetParam().type, text);
-  EXPECT_TRUE(
-      same_bits(sensor->capture(exact_, camera_, Seed{1}, Seed{2}), back->capture(exact_, camera_, Seed{1}, Seed{2})));
+  EXPECT_TRUE(same_bits(shoot(*sensor), shoot(*back)));
   EXPECT_EQ(back->z_max(), 3);
   EXPECT_EQ(back->stated_noise(camera_).sigma(1), sensor->stated_noise(camera_).sigma(1));
 }

@@ -1,0 +1,19 @@
+// Subpixel disparity: least squares of the grey-level difference over the matching window (Lucas and Kanade 1981, one
+// unknown), started at the matcher's result. Steps of 1/16 px of the matcher are too coarse for a camera that delivers
+// 1/32 px, and its three-point parabola pulls towards whole pixels.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.hpp"
+
+namespace binpick {
+
+/// NaN where the standard deviation of the grey levels in the window is below `contrast`.
+void drop_plain(const Image<std::uint8_t>& left, int block, double contrast, Image<float>& disparity);
+
+/// Refines every disparity by at most one pixel; where the fit runs further away there is no match.
+void fit_subpixel(const Image<std::uint8_t>& left, const Image<std::uint8_t>& right, int block, Image<float>& disparity,
+                  int threads);
+
+}  // namespace binpick
