@@ -1,10 +1,10 @@
 #include "sim/optics/subpixel_fit.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Core>
+#include <vector>
 
 #include "core/check.hpp"
 #include "core/parallel.hpp"
