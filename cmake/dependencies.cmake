@@ -17,6 +17,7 @@ add_library(binpick_bullet INTERFACE)
 target_link_libraries(binpick_bullet INTERFACE PkgConfig::BULLET)
 
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+find_package(embree 3 REQUIRED)
 
 # Single OpenCV modules, never ${OpenCV_LIBS}: imgcodecs, videoio and ximgproc pull GPL libraries in Debian.
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d)

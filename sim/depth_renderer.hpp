@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "core/camera.hpp"
 #include "core/image.hpp"
@@ -35,5 +37,13 @@ class DepthRenderer {
 
 /// One off-screen context, owned by the thread that calls this. No display, no GPU. Throws std::runtime_error.
 std::unique_ptr<DepthRenderer> make_osmesa_renderer();
+
+/// The exact reference: a ray caster on the CPU, depth to the rounding of a float. Belongs to one thread at a time, may
+/// use as many as are given, and gives the same bits for any number. Throws std::runtime_error.
+std::unique_ptr<DepthRenderer> make_raycast_renderer(int threads = 1);
+
+/// What a scene may call them.
+std::vector<std::string> renderer_names();
+std::unique_ptr<DepthRenderer> make_renderer(const std::string& name);  ///< throws SpecError with the nearest name
 
 }  // namespace binpick

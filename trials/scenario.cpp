@@ -137,6 +137,7 @@ void Scenario::visit(ConfigVisitor& v) {
   v.section("settle", settle, "when the heap is at rest");
   v.section("physics", physics, "the physics engine");
   visit_cell(v, cell);
+  v.choice("renderer", renderer, renderer_names(), "what draws the exact frames; raycast is the slower reference");
   visit_sensor(v, *this);
   visit_estimator(v, *this);
   v.section("planning", planning, "the pick planner");

@@ -43,6 +43,7 @@ struct Scenario {
   SettleConfig settle;
   PhysicsConfig physics;
   Cell cell;
+  std::string renderer = "osmesa";  ///< what draws the exact frames: a name of renderer_names()
   std::string sensor_type = "disparity";
   std::shared_ptr<SensorModel> sensor;
   std::string estimator_type = "paper_ppf";  ///< a name of the estimator registry, or `oracle`

@@ -28,7 +28,7 @@ TrialContext make_trial_context(Scenario& scenario) {
     context.shapes.push_back(collision_shape(context.parts.back()));
   }
   context.hash = scenario_hash(scenario);
-  context.renderer = make_osmesa_renderer();
+  context.renderer = make_renderer(scenario.renderer);
   context.planner = std::make_unique<const PickPlanner>(scenario.cell, context.parts, scenario.planning);
   context.checker = std::make_unique<const PoseChecker>(context.parts);
   if (scenario.estimator) scenario.estimator->prepare(context.parts);

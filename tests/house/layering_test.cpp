@@ -41,6 +41,7 @@ const std::map<std::string, Names> kThirdParties = {
     {"bullet/", {"sim", "robot"}},
     {"bt", {"sim", "robot"}},
     {"GL/", {"sim"}},
+    {"embree", {"sim"}},
     {"opencv2/", {"sim", "perception", "trials"}},
     {"pcl/", {"perception"}},
     {"libqhull", {"core", "perception"}},

@@ -1,10 +1,11 @@
-// The exact renderer against paper geometry and against the independent rasteriser of core.
+// Every exact renderer against paper geometry and against the independent rasteriser of core.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <thread>
 
 #include "core/bin_spec.hpp"
+#include "core/error.hpp"
 #include "core/primitive.hpp"
 #include "core/random.hpp"
 #include "core/zbuffer.hpp"
@@ -51,12 +52,12 @@ TriangleMesh wide_plane(const Eigen::Vector3d& normal, double distance, double r
           {{0, 1, 2}, {0, 2, 3}}};
 }
 
-class Renderer : public testing::Test {
+class Renderer : public testing::TestWithParam<std::string> {
  protected:
-  std::unique_ptr<DepthRenderer> renderer_ = make_osmesa_renderer();
+  std::unique_ptr<DepthRenderer> renderer_ = make_renderer(GetParam());
 };
 
-TEST_F(Renderer, FrontalPlaneIsExactAtEveryPixel) {
+TEST_P(Renderer, FrontalPlaneIsExactAtEveryPixel) {
   const PinholeCamera camera = off_centre_camera();
   RenderScene scene;
   scene.items = {item(wide_plane({0, 0, 1}, 0.6, 2), Pose::Identity(), 3)};
@@ -69,7 +70,7 @@ TEST_F(Renderer, FrontalPlaneIsExactAtEveryPixel) {
   }
 }
 
-TEST_F(Renderer, TiltedPlaneTellsTheCameraModel) {
+TEST_P(Renderer, TiltedPlaneTellsTheCameraModel) {
   const PinholeCamera camera = off_centre_camera();
   const Eigen::Vector3d normal = Eigen::Vector3d(0.6, -0.4, -1).normalized();
   const Pose X_WC = at(0.3, -0.2, 1.1) * pose_from_xyz_rpy({0, 0, 0}, {2.5, 0.3, -0.7});
@@ -85,7 +86,7 @@ TEST_F(Renderer, TiltedPlaneTellsTheCameraModel) {
     }
 }
 
-TEST_F(Renderer, NothingThereIsNan) {
+TEST_P(Renderer, NothingThereIsNan) {
   const ExactFrame frame = renderer_->render({}, off_centre_camera(), Pose::Identity(), 0.1, 2);
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     ASSERT_TRUE(std::isnan(frame.depth[i]));
@@ -95,7 +96,7 @@ TEST_F(Renderer, NothingThereIsNan) {
 }
 
 // A plate lying flat under a camera that looks straight down: its outline is known to the pixel.
-TEST_F(Renderer, FlatPlateCoversItsRectangle) {
+TEST_P(Renderer, FlatPlateCoversItsRectangle) {
   PinholeCamera camera = off_centre_camera();
   camera.fx = camera.fy = 200;
   camera.cx = 160.25;
@@ -113,7 +114,7 @@ TEST_F(Renderer, FlatPlateCoversItsRectangle) {
     }
 }
 
-TEST_F(Renderer, AgreesWithTheZBuffer) {
+TEST_P(Renderer, AgreesWithTheZBuffer) {
   const PinholeCamera camera;
   const Pose X_WC = at(0.05, -0.03, 0.65) * pose_from_xyz_rpy({0, 0, 0}, {M_PI - 0.1, 0.15, 0.4});
   RenderScene scene;
@@ -147,7 +148,7 @@ TEST_F(Renderer, AgreesWithTheZBuffer) {
   EXPECT_LT(sum / static_cast<double>(both), 1e-6);
 }
 
-TEST_F(Renderer, SameBitsAgainInAnotherContextAndInAnotherThread) {
+TEST_P(Renderer, SameBitsAgainInAnotherContextAndInAnotherThread) {
   RenderScene scene;
   scene.items = {item(mesh_of(Primitive::sphere(0.1), 64), at(0.02, 0.01, 0.5), 1),
                  item(wide_plane({0.2, 0.1, 1}, 0.6, 2), Pose::Identity(), 2)};
@@ -155,8 +156,8 @@ TEST_F(Renderer, SameBitsAgainInAnotherContextAndInAnotherThread) {
   const ExactFrame first = draw(*renderer_);
   const ExactFrame again = draw(*renderer_);
   ExactFrame elsewhere;
-  std::thread([&] { elsewhere = draw(*make_osmesa_renderer()); }).join();
-  const auto second_context = make_osmesa_renderer();
+  std::thread([&] { elsewhere = draw(*make_renderer(GetParam())); }).join();
+  const auto second_context = make_renderer(GetParam());
   const ExactFrame other = draw(*second_context);
   for (const ExactFrame* frame : std::initializer_list<const ExactFrame*>{&again, &other, &elsewhere}) {
     EXPECT_TRUE(std::equal(first.depth.begin(), first.depth.end(), frame->depth.begin()));
@@ -164,7 +165,7 @@ TEST_F(Renderer, SameBitsAgainInAnotherContextAndInAnotherThread) {
   }
 }
 
-TEST_F(Renderer, SmallImageAfterALargeOneIsTheSame) {
+TEST_P(Renderer, SmallImageAfterALargeOneIsTheSame) {
   RenderScene scene;
   scene.items = {item(mesh_of(Primitive::sphere(0.1), 64), at(0.02, 0.01, 0.5), 1)};
   const ExactFrame first = renderer_->render(scene, off_centre_camera(), Pose::Identity(), 0.1, 2);
@@ -177,7 +178,7 @@ TEST_F(Renderer, SmallImageAfterALargeOneIsTheSame) {
 }
 
 // A mesh freed between two frames must not lend its address to the next one.
-TEST_F(Renderer, FreedMeshesAreForgotten) {
+TEST_P(Renderer, FreedMeshesAreForgotten) {
   for (int i = 0; i < 20; ++i) {
     const double z = 0.4 + 0.01 * i;
     RenderScene scene;
@@ -195,7 +196,7 @@ Visibility seen(DepthRenderer& renderer, const RenderScene& scene, const Pinhole
   return part_visibility(renderer, scene, frame, camera, Pose::Identity(), 1).at(0);
 }
 
-TEST_F(Renderer, HalfOccludedPlateIsHalfVisible) {
+TEST_P(Renderer, HalfOccludedPlateIsHalfVisible) {
   PinholeCamera camera;
   camera.fx = camera.fy = 400;
   camera.cx = 400.5;
@@ -212,7 +213,7 @@ TEST_F(Renderer, HalfOccludedPlateIsHalfVisible) {
   EXPECT_DOUBLE_EQ(half.fraction(), 0.5);
 }
 
-TEST_F(Renderer, WhatLiesOutsideTheImageCounts) {
+TEST_P(Renderer, WhatLiesOutsideTheImageCounts) {
   PinholeCamera camera;
   camera.fx = camera.fy = 400;
   camera.cx = 400.5;
@@ -227,7 +228,7 @@ TEST_F(Renderer, WhatLiesOutsideTheImageCounts) {
   EXPECT_EQ(seen(*renderer_, scene, camera).visible_pixels, 0);
 }
 
-TEST_F(Renderer, BuriedAndMissingPartsHaveFractionZero) {
+TEST_P(Renderer, BuriedAndMissingPartsHaveFractionZero) {
   const PinholeCamera camera;
   RenderScene scene;
   scene.items = {item(mesh_of(Primitive::sphere(0.02)), at(0, 0, 0.8), 0),
@@ -242,7 +243,7 @@ TEST_F(Renderer, BuriedAndMissingPartsHaveFractionZero) {
   EXPECT_EQ(result[1].fraction(), 0);
 }
 
-TEST_F(Renderer, PictureHasTheSizeAndShowsTheParts) {
+TEST_P(Renderer, PictureHasTheSizeAndShowsTheParts) {
   PinholeCamera camera = off_centre_camera();
   RenderScene scene;
   scene.items = {item(mesh_of(Primitive::box({2, 2, 0.1})), at(0, 0, 0.8), kIdTable),
@@ -253,6 +254,18 @@ TEST_F(Renderer, PictureHasTheSizeAndShowsTheParts) {
   const Rgb part = picture(141, 118), table = picture(20, 20);
   EXPECT_GT(int{part[2]} - int{part[0]}, 20);              // part 0 is blue
   EXPECT_LT(std::abs(int{table[2]} - int{table[0]}), 20);  // the table is grey
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Renderer, testing::ValuesIn(renderer_names()),
+                         [](const auto& name) { return name.param; });
+
+TEST(RendererNames, UnknownOnesSayWhatIsNear) {
+  try {
+    make_renderer("raycaster");
+    FAIL();
+  } catch (const SpecError& e) {
+    EXPECT_NE(std::string(e.what()).find("'raycast'"), std::string::npos) << e.what();
+  }
 }
 
 }  // namespace
