@@ -16,6 +16,19 @@ Vector6d six_joints(const std::vector<double>& values, const char* key) {
   return Eigen::Map<const Vector6d>(values.data());
 }
 
+/// Housing and bracket of a camera on the flange, in F.
+void add_camera_body(const CameraMount& camera, std::vector<Primitive>& bodies) {
+  if (camera.mount != "flange" || !(camera.housing.minCoeff() > 0)) return;
+  constexpr double kBracketThickness = 0.006, kBracketWidth = 0.03;  // m
+  bodies.push_back(Primitive::box(camera.housing, camera.pose * Eigen::Translation3d(0, 0, -camera.housing.z() / 2)));
+  const Eigen::Vector3d p_FC = camera.pose.translation();
+  const double offset = p_FC.head<2>().norm();
+  if (offset < 1e-3) return;
+  const Pose X_bracket = Pose(Eigen::Translation3d(p_FC.x() / 2, p_FC.y() / 2, kBracketThickness / 2)) *
+                         Eigen::AngleAxisd(std::atan2(p_FC.y(), p_FC.x()), Eigen::Vector3d::UnitZ());
+  bodies.push_back(Primitive::box({offset, kBracketWidth, kBracketThickness}, X_bracket));
+}
+
 }  // namespace
 
 void TraySpec::visit(ConfigVisitor& v) {
@@ -31,6 +44,12 @@ void CameraMount::visit(ConfigVisitor& v) {
           "size of the housing along x, y, z of the camera, behind its front; for collisions");
   if (v.reading() && v.has("intrinsics")) has_intrinsics = true;
   if (v.reading() || has_intrinsics) v.section("intrinsics", intrinsics, "instead of the sensor preset's");
+  if (v.reading() || !lens.none()) v.section("lens", lens, "distortion of grey images; depth frames are rectified");
+}
+
+void FurtherCamera::visit(ConfigVisitor& v) {
+  v.field("name", name, "shown in messages and folders");
+  CameraMount::visit(v);
 }
 
 void LookSpec::visit(ConfigVisitor& v) {
@@ -52,6 +71,7 @@ void Cell::visit(ConfigVisitor& v) {
   v.field("bin_pose", X_WB, "centre of the bin's inner floor in the world");
   v.section("tray", tray, "where parts are put");
   v.section("camera", camera, "where the camera is mounted");
+  if (v.reading() || !cameras.empty()) v.list("cameras", cameras, "further cameras: their clouds join the first's");
   v.path("arm", arm_path, "URDF of the arm");
   v.field("arm_pose", X_WR, "base of the arm in the world");
   const auto gripper_body = [this](ConfigVisitor& g) {
@@ -97,8 +117,9 @@ void Cell::finish() {
   }
 }
 
-Pose Cell::camera_pose(const Vector6d& q) const {
-  return camera.mount == "flange" ? X_WR * arm->forward(q) * camera.pose : camera.pose;
+Pose Cell::camera_pose(const Vector6d& q, std::size_t k) const {
+  const CameraMount& mount = camera_at(k);
+  return mount.mount == "flange" ? X_WR * arm->forward(q) * mount.pose : mount.pose;
 }
 
 Pose Cell::tip_pose(const Vector6d& q) const { return X_WR * arm->forward(q) * gripper->X_FG(); }
@@ -123,17 +144,9 @@ std::vector<Primitive> Cell::bin_W() const {
 }
 
 std::vector<Primitive> Cell::camera_body_F() const {
-  if (camera.mount != "flange" || !(camera.housing.minCoeff() > 0)) return {};
-  constexpr double kBracketThickness = 0.006, kBracketWidth = 0.03;  // m
-  std::vector<Primitive> body = {
-      Primitive::box(camera.housing, camera.pose * Eigen::Translation3d(0, 0, -camera.housing.z() / 2))};
-  const Eigen::Vector3d p_FC = camera.pose.translation();
-  const double offset = p_FC.head<2>().norm();
-  if (offset < 1e-3) return body;
-  const Pose X_bracket = Pose(Eigen::Translation3d(p_FC.x() / 2, p_FC.y() / 2, kBracketThickness / 2)) *
-                         Eigen::AngleAxisd(std::atan2(p_FC.y(), p_FC.x()), Eigen::Vector3d::UnitZ());
-  body.push_back(Primitive::box({offset, kBracketWidth, kBracketThickness}, X_bracket));
-  return body;
+  std::vector<Primitive> bodies;
+  for (std::size_t k = 0; k < camera_count(); ++k) add_camera_body(camera_at(k), bodies);
+  return bodies;
 }
 
 void visit_cell(ConfigVisitor& v, const char* key, Cell& cell) {

@@ -8,6 +8,7 @@
 #include "core/bin_spec.hpp"
 #include "core/camera.hpp"
 #include "core/config.hpp"
+#include "core/lens_distortion.hpp"
 #include "robot/arm.hpp"
 #include "robot/gripper.hpp"
 #include "robot/trajectory.hpp"
@@ -26,8 +27,16 @@ struct CameraMount {
   Pose pose = Pose::Identity();  ///< X_FC on the flange, X_WC when fixed
   PinholeCamera intrinsics;      ///< the sensor preset's unless given
   bool has_intrinsics = false;
+  LensDistortion lens;  ///< of grey images; depth frames are rectified
   Eigen::Vector3d housing = {0.090, 0.025,
                              0.025};  ///< m, along x, y, z of C; its front lies in the plane of C's origin
+  void visit(ConfigVisitor& v);
+};
+
+/// One of `cameras:`: a camera beside the first, same sensor model. A fixed one has no body that the arm could meet.
+struct FurtherCamera : CameraMount {
+  std::string name;
+  FurtherCamera() { mount = "fixed"; }
   void visit(ConfigVisitor& v);
 };
 
@@ -44,8 +53,9 @@ struct Cell {
   BinSpec bin;
   Pose X_WB = pose_from_xyz_rpy({0.495, 0, 0.005}, {0, 0, 0});
   TraySpec tray;
-  CameraMount camera;
-  std::string arm_path;  ///< URDF
+  CameraMount camera;                  ///< the first: its C is the frame of every view
+  std::vector<FurtherCamera> cameras;  ///< further ones, whose clouds are fused with the first's
+  std::string arm_path;                ///< URDF
   Pose X_WR = Pose::Identity();
   std::string gripper_type = "suction";
   std::shared_ptr<Gripper> gripper;  ///< made while visiting
@@ -54,13 +64,15 @@ struct Cell {
   Vector6d q_look = Vector6d::Zero();  ///< rad, joint position of the look; with a flange camera it places the camera
   Vector6d q_home = (Vector6d() << 0, 0, 0, 0, 1.5707963267948966, 0).finished();  ///< rad, start and end of a cycle
   LookSpec look;
-  /// Fixed camera of the cell at joint position q, or the flange camera carried there: X_WC as believed.
-  Pose camera_pose(const Vector6d& q) const;
+  std::size_t camera_count() const { return 1 + cameras.size(); }
+  const CameraMount& camera_at(std::size_t k) const { return k == 0 ? camera : cameras[k - 1]; }
+  /// Fixed camera k of the cell at joint position q, or the flange camera carried there: X_WC as believed.
+  Pose camera_pose(const Vector6d& q, std::size_t k = 0) const;
   Pose tip_pose(const Vector6d& q) const;  ///< X_WG
   std::vector<Primitive> table_W() const;  ///< what the cell stands on (top at z = 0)
   std::vector<Primitive> tray_W() const;
   std::vector<Primitive> bin_W() const;  ///< as the robot believes it stands
-  /// The camera's housing and its bracket in F; empty when the camera is fixed.
+  /// Housings and brackets of the cameras on the flange, in F; empty when all are fixed.
   std::vector<Primitive> camera_body_F() const;
 
   void visit(ConfigVisitor& v);

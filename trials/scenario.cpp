@@ -69,6 +69,13 @@ void override_sensor(Scenario& s, const std::string& text) {
   const std::string preset = colon == std::string::npos ? "" : "preset: '" + text.substr(colon + 1) + "'";
   if (!preset.empty()) read_yaml_text(preset, "--sensor " + text, "", [&](ConfigVisitor& v) { s.sensor->visit(v); });
   s.cell.camera.has_intrinsics = false;
+  for (FurtherCamera& camera : s.cell.cameras) camera.has_intrinsics = false;
+}
+
+void give_intrinsics(const SensorModel& sensor, CameraMount& camera) {
+  if (camera.has_intrinsics) return;
+  camera.intrinsics = sensor.default_camera();
+  camera.has_intrinsics = true;
 }
 
 void visit_estimator(ConfigVisitor& v, Scenario& s) {
@@ -158,10 +165,8 @@ Scenario read_scenario(const std::string& path, const ScenarioOverrides& overrid
     scenario.visit(v);
     if (!overrides.sensor.empty()) override_sensor(scenario, overrides.sensor);
     validate(scenario);
-    if (!scenario.cell.camera.has_intrinsics) {
-      scenario.cell.camera.intrinsics = scenario.sensor->default_camera();
-      scenario.cell.camera.has_intrinsics = true;
-    }
+    give_intrinsics(*scenario.sensor, scenario.cell.camera);
+    for (FurtherCamera& camera : scenario.cell.cameras) give_intrinsics(*scenario.sensor, camera);
     scenario.cell.finish();
     scenario.cell.validate();
   });

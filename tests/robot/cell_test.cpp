@@ -126,6 +126,16 @@ TEST(BadCell, EachSaysWhatIsWrong) {
       {"look: {camera: {xyz: [0.4, 0, 1]}, joints: [0, 0, 0, 0, 0, 0]}\n", "only one of joints, camera and tip"},
       {"motion: {speed_override: 1.5}\n", "motion.speed_override: must lie in (0, 1]"},
       {"camera: {mount: ceiling}\n", "flange"},
+      {"camera: {mount: fixed, pose: {xyz: [0.6475, 0, 0.1]}}\n",
+       "cell.camera.pose: the camera at (0.647, 0.000, 0.100) m stands inside a wall or the floor of the bin"},
+      {"camera: {mount: fixed, pose: {xyz: [0.9, 0.9, -0.02]}}\n", "stands inside the table"},
+      {"camera: {mount: fixed, pose: {xyz: [0, -0.49, 0.002]}}\n", "stands inside a wall or the floor of the tray"},
+      {"camera: {mount: fixed, pose: {xyz: [0, 0, 0.2]}}\n", "stands inside the arm"},
+      {"camera: {housing: [0, 0, 0], pose: {xyz: [0, 0, -20 mm]}}\n", "stands inside the arm"},
+      {"camera: {pose: {xyz: [0, 0, 60 mm]}}\n", "stands inside the tool"},
+      {"cameras: [{name: west, pose: {xyz: [0.3425, 0, 0.1]}}]\n",
+       "cell.cameras[0] (west).pose: the camera at (0.343, 0.000, 0.100) m stands inside a wall"},
+      {"camera: {lens: {k1: -0.9}}\n", "cell.camera: lens: the distortion folds at radius 0.6"},
   };
   for (const auto& [extra, expected] : cases)
     EXPECT_NE(error_of(extra).find(expected), std::string::npos)

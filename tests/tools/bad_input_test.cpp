@@ -100,6 +100,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "part: {mesh: box.stl}\ncell: {base: " + kRoot +
                      "/assets/cells/mz07_one_cup.yaml, tray: {pose: {xyz: [3, 0, 0]}}}\n",
                  {"tray", "reach"}},
+        BadScene{"camera inside a wall",
+                 "part: {mesh: box.stl}\ncell: {base: " + kRoot +
+                     "/assets/cells/mz07_one_cup.yaml, look: {joints: [0, 0, 0, 0, 90 deg, 0]}, "
+                     "camera: {mount: fixed, pose: {xyz: [647 mm, 0, 100 mm]}}}\n",
+                 {"scene.yaml", "cell.camera.pose", "inside a wall"}},
+        BadScene{"folding lens",
+                 "part: {mesh: box.stl}\ncell: {base: " + kRoot +
+                     "/assets/cells/mz07_one_cup.yaml, camera: {lens: {k1: -0.8}}}\n",
+                 {"scene.yaml", "cell.camera", "folds at radius"}},
         BadScene{"missing arm",
                  "part: {mesh: box.stl}\ncell: {base: " + kRoot + "/assets/cells/mz07_one_cup.yaml, arm: no.urdf}\n",
                  {"no.urdf"}},
