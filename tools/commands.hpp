@@ -18,6 +18,7 @@ Action add_check(CLI::App& app);
 Action add_estimate(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_list(CLI::App& app);
+Action add_validate(CLI::App& app);
 
 /// --sensor NAME[:PRESET], as ScenarioOverrides has it.
 void add_sensor_option(CLI::App& command, std::string& sensor);

@@ -1,0 +1,57 @@
+// binpick validate SUBJECT: the numbered physical checks, measured and judged. Exit 0 when all pass, 1 otherwise.
+
+#include <iostream>
+
+#include "core/error.hpp"
+#include "core/file_io.hpp"
+#include "tools/commands.hpp"
+#include "tools/validate/sensor_bench.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kQuickSeeds = 4;
+
+struct Options {
+  std::string subject, json, plots, seeds;
+  bool quick = false;
+  int threads = 2;
+};
+
+std::vector<Verdict> validate_sensors(const Options& options) {
+  auto [first, last] = std::pair<std::uint64_t, std::uint64_t>(5000, 5000 + SensorBench::kFullSeeds);
+  if (options.quick) last = first + kQuickSeeds;
+  if (!options.seeds.empty()) std::tie(first, last) = parse_seeds(options.seeds);
+  if (last - first > 1000) throw SpecError("--seeds: at most 1000");
+  SensorBench bench(first, static_cast<int>(last - first), options.quick, options.threads);
+  for (void (*check)(SensorBench&) : {check_wall_noise, check_kinect_noise, check_shadow, check_depth_steps,
+                                      check_noise_correlation, check_matching, check_bias})
+    check(bench);
+  return bench.verdicts();
+}
+
+int run(const Options& options) {
+  if (!options.json.empty()) write_file(options.json, "[]\n");  // a place that cannot be written is known at once
+  if (!options.plots.empty()) make_folder(options.plots);
+  const std::vector<Verdict> verdicts = validate_sensors(options);
+  if (!options.json.empty()) write_file(options.json, json_of(verdicts));
+  std::cout << table_of(verdicts) << std::flush;
+  if (!std::cout) throw StorageError("standard output: cannot write");
+  return all_pass(verdicts) ? 0 : 1;
+}
+
+}  // namespace
+
+Action add_validate(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("validate", "physical checks: measured value, expected value, verdict");
+  command->add_option("subject", options->subject, "what to check")->required()->check(CLI::IsMember({"sensors"}));
+  command->add_flag("--quick", options->quick, "fewer seeds and smaller images, tolerances widened accordingly");
+  command->add_option("--seeds", options->seeds, "A:B, seeds A .. B-1; default 5000:5020, quick 5000:5004");
+  command->add_option("--threads", options->threads, "results do not depend on it")->check(CLI::Range(1, 256));
+  command->add_option("--json", options->json, "write the verdicts to this file");
+  command->add_option("--plots", options->plots, "draw the curves beside the published ones into this folder");
+  return [options] { return run(*options); };
+}
+
+}  // namespace binpick
