@@ -9,6 +9,7 @@
 #include "core/mesh_io.hpp"
 #include "core/mesh_repair.hpp"
 #include "core/quantity.hpp"
+#include "core/symmetry_detection.hpp"
 #include "core/yaml.hpp"
 
 namespace binpick {
@@ -152,7 +153,8 @@ Part load_part(const PartSpec& spec) {
   part.friction = spec.friction;
   part.restitution = spec.restitution;
   part.surface = spec.surface;
-  part.symmetry = make_symmetry(spec.symmetry);
+  part.symmetry = spec.symmetry.type == "auto" ? detect_symmetry(part.envelope_P, spec.symmetry.tolerance)
+                                               : make_symmetry(spec.symmetry);
   part.diameter = mesh_diameter(part.mesh_P);
   part.box_center_P = bounding_box(part.mesh_P).center();
   part.content_hash = hash_of(part);

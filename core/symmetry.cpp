@@ -19,9 +19,10 @@ struct Problem {
 
 std::optional<Problem> problem_of(const SymmetrySpec& spec) {
   const bool about_axis = spec.type == "cyclic" || spec.type == "dihedral" || spec.type == "revolution";
-  if (!about_axis && spec.type != "none" && spec.type != "sphere") {
-    return Problem{"type", "is one of none, cyclic, dihedral, revolution, sphere, not '" + spec.type + "'"};
+  if (!about_axis && spec.type != "auto" && spec.type != "none" && spec.type != "sphere") {
+    return Problem{"type", "is one of auto, none, cyclic, dihedral, revolution, sphere, not '" + spec.type + "'"};
   }
+  if (!(spec.tolerance >= 1e-4 && spec.tolerance <= 0.1)) return Problem{"tolerance", "must lie in 0.0001 .. 0.1"};
   if (!spec.point.allFinite()) return Problem{"point", "must be finite"};
   if (!about_axis) return std::nullopt;
   if (!spec.axis.allFinite() || spec.axis.norm() < 1e-9) return Problem{"axis", "must not be zero"};
@@ -79,10 +80,11 @@ std::vector<Pose> sphere_rotations(const Eigen::Vector3d& center_P, int count) {
 }  // namespace
 
 void SymmetrySpec::visit(ConfigVisitor& v) {
-  v.choice(
-      "type", type, {"none", "cyclic", "dihedral", "revolution", "sphere"},
-      "rotations that carry the part into itself: none; cyclic: turns of 360 deg / order; dihedral: those and half "
-      "turns across; revolution: any turn about the axis; sphere: any rotation about the point");
+  v.choice("type", type, {"auto", "none", "cyclic", "dihedral", "revolution", "sphere"},
+           "rotations that carry the part into itself: auto: found from the mesh; none; cyclic: turns of 360 deg / "
+           "order; dihedral: those and half "
+           "turns across; revolution: any turn about the axis; sphere: any rotation about the point");
+  v.field("tolerance", tolerance, Unit::kNone, "auto: deviation allowed, as a share of the diameter");
   v.field("axis", axis, Unit::kNone, "direction of the axis in the part's frame");
   v.field("perpendicular", perpendicular, Unit::kNone, "dihedral: axis of one of the half turns, across the axis");
   v.field("point", point, Unit::kLength, "a point on the axis; with half turns or a flip, the centre");
@@ -100,6 +102,7 @@ void SymmetrySpec::validate() const {
 
 Symmetry make_symmetry(const SymmetrySpec& spec) {
   spec.validate();
+  BP_CHECK(spec.type != "auto", "detect_symmetry finds it");
   Symmetry symmetry;
   if (spec.type == "none") return symmetry;
   if (spec.type == "sphere") {

@@ -30,10 +30,11 @@ struct Symmetry {
   bool trivial() const { return finite.size() == 1 && !axis && !center_P; }
 };
 
-/// part.yaml: {type: none | cyclic | dihedral | revolution | sphere, axis: [0,0,1], point: [0,0,0], order: 2, flip:
-/// true}.
+/// part.yaml: {type: auto | none | cyclic | dihedral | revolution | sphere, axis: [0,0,1], point: [0,0,0], order: 2,
+/// flip: true}. `auto` is found from the envelope (core/symmetry_detection).
 struct SymmetrySpec {
-  std::string type = "none";
+  std::string type = "auto";
+  double tolerance = 0.01;  ///< auto: how far a turned surface may lie from itself, as a share of the diameter
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d perpendicular = Eigen::Vector3d::UnitX();  ///< dihedral: axis of one of the half turns
   Eigen::Vector3d point = Eigen::Vector3d::Zero();           ///< m, a point on the axis; with a flip, the centre
@@ -44,6 +45,7 @@ struct SymmetrySpec {
   void validate() const;
 };
 
+/// Of every type but `auto`, which needs a mesh.
 Symmetry make_symmetry(const SymmetrySpec& spec);
 
 /// The pose X_AP * S (S in the group) nearest to X_AP_ref: least rotation angle; the turn about a continuous axis is

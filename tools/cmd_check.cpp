@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "core/symmetry_detection.hpp"
 #include "core/yaml.hpp"
 #include "tools/commands.hpp"
 #include "trials/scenario.hpp"
@@ -13,10 +14,13 @@ namespace {
 
 void print_part(const Part& part) {
   const Eigen::Vector3d size = bounding_box(part.mesh_P).sizes() * 1e3;
-  std::printf("  part %s: %.1f x %.1f x %.1f mm, diameter %.1f mm, %.1f g, %zu triangles, %s, symmetry of %zu%s\n",
+  std::printf("  part %s: %.1f x %.1f x %.1f mm, diameter %.1f mm, %.1f g, %zu triangles, %s, symmetry: %s\n",
               part.name.c_str(), size.x(), size.y(), size.z(), part.diameter * 1e3, part.mass.mass * 1e3,
-              part.mesh_P.triangles.size(), is_closed(part.mesh_P) ? "closed" : "OPEN", part.symmetry.finite.size(),
-              part.symmetry.axis ? " x any turn" : "");
+              part.mesh_P.triangles.size(), is_closed(part.mesh_P) ? "closed" : "OPEN",
+              describe(part.symmetry).c_str());
+  const std::string found = describe(detect_symmetry(part.envelope_P, SymmetrySpec().tolerance));
+  if (found != describe(part.symmetry))
+    std::printf("  part %s: its mesh shows another symmetry than was stated: %s\n", part.name.c_str(), found.c_str());
 }
 
 void check(const std::string& file) {

@@ -207,7 +207,7 @@ TEST_F(PartFile, DefaultsAreEnough) {
   EXPECT_EQ(part.name, "block");
   EXPECT_NEAR(part.mass.mass, 4.8e-5 * 2700, 1e-6);
   EXPECT_EQ(part.friction, 0.4);
-  EXPECT_TRUE(part.symmetry.trivial());
+  EXPECT_EQ(part.symmetry.finite.size(), 4u);  // found: the half turns of a block of three different edges
   EXPECT_TRUE(part.pieces_P.empty());
   EXPECT_LT((part.box_center_P - Eigen::Vector3d(0.01, 0.02, 0.03)).norm(), 1e-8);
 }
