@@ -11,6 +11,7 @@ std::unique_ptr<SensorModel> make_active_stereo_sensor();
 std::unique_ptr<SensorModel> make_ideal_sensor();
 std::unique_ptr<SensorModel> make_gauss_z_sensor();
 std::unique_ptr<SensorModel> make_disparity_sensor();
+std::unique_ptr<SensorModel> make_structured_light_sensor();
 
 /// Checks shared by the models; throws SpecError that names the model.
 void check_depth_range(const char* model, double z_min, double z_max);

@@ -12,6 +12,7 @@ const std::vector<SensorEntry>& sensor_registry() {
       {"disparity", "stereo camera, noise made in the disparity domain (RealSense D4xx)", make_disparity_sensor},
       {"gauss_z", "white Gaussian noise on depth: a baseline, too easy for ICP", make_gauss_z_sensor},
       {"ideal", "exact depth", make_ideal_sensor},
+      {"structured_light", "phase-shifted stripes, projected and decoded (Zivid, PhoXi)", make_structured_light_sensor},
   };
   return entries;
 }
