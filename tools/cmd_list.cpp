@@ -1,4 +1,5 @@
-// binpick list [KIND]: what a scene can choose from, with every parameter, its default, unit and meaning.
+// binpick list [KIND]: what a scene can choose from, with every parameter, its default, unit and meaning;
+// sensor_presets: what --sensor accepts.
 
 #include <iostream>
 
@@ -23,6 +24,15 @@ void print_registry(const char* title, const Registry& registry) {
   }
 }
 
+// What --sensor accepts, a line each: for scripts.
+void print_sensor_presets() {
+  for (const SensorEntry& entry : sensor_registry()) {
+    const std::vector<std::string> presets = entry.make()->presets();
+    if (presets.empty()) std::cout << entry.name << "\n";
+    for (const std::string& preset : presets) std::cout << entry.name << ":" << preset << "\n";
+  }
+}
+
 void print_scene_keys() {
   Scenario scenario;
   scenario.parts.resize(1);
@@ -35,9 +45,10 @@ Action add_list(CLI::App& app) {
   auto kind = std::make_shared<std::string>("all");
   CLI::App* command = app.add_subcommand("list", "sensors, estimators, grippers and scene keys, with their parameters");
   command->add_option("kind", *kind, "what to list")
-      ->check(CLI::IsMember({"all", "sensors", "estimators", "grippers", "scene"}));
+      ->check(CLI::IsMember({"all", "sensors", "estimators", "grippers", "scene", "sensor_presets"}));
   return [kind] {
     const bool all = *kind == "all";
+    if (*kind == "sensor_presets") print_sensor_presets();
     if (all || *kind == "sensors") print_registry("sensors", sensor_registry());
     if (all || *kind == "estimators") print_registry("estimators", estimator_registry());
     if (all || *kind == "grippers") print_registry("grippers", gripper_registry());
