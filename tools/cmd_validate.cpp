@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "tools/commands.hpp"
-#include "tools/validate/sensor_bench.hpp"
+#include "tools/validate/sensor_plots.hpp"
 
 namespace binpick {
 namespace {
@@ -27,6 +27,12 @@ std::vector<Verdict> validate_sensors(const Options& options) {
   for (void (*check)(SensorBench&) : {check_wall_noise, check_kinect_noise, check_shadow, check_depth_steps,
                                       check_noise_correlation, check_matching, check_bias})
     check(bench);
+  if (!options.plots.empty()) {
+    SensorBench middle(first, static_cast<int>(last - first), true, options.threads);
+    if (!plot_sensors(middle, options.plots))
+      std::cerr << "gnuplot is not installed: " << options.plots << " has the curves and scripts, no pictures"
+                << std::endl;
+  }
   return bench.verdicts();
 }
 

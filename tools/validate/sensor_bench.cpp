@@ -120,4 +120,11 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+double missing_left_of_plate(const BenchView& view, const Image<float>& depth, double z_plate, double expected) {
+  const double outline = view.camera.cx - 0.5 * SensorBench::kPlateWidth / z_plate * view.camera.fx;
+  const int edge = static_cast<int>(std::lround(outline));
+  const ImageRegion strip{edge - 20 - static_cast<int>(std::ceil(expected)), view.centre.v0, edge + 5, view.centre.v1};
+  return (1 - fill_rate(depth, strip)) * (strip.u1 - strip.u0);
+}
+
 }  // namespace binpick

@@ -74,6 +74,10 @@ class SensorBench {
 
 double mean_of(const std::vector<double>& values);
 
+/// Missing pixels a row beside the left outline of a plate at z_plate: from 20 px beyond the shadow that is expected to
+/// 5 px on the plate. For noisy frames; speckle holes count.
+double missing_left_of_plate(const BenchView& view, const Image<float>& depth, double z_plate, double expected);
+
 // The checks, each appending its lines to bench.verdicts().
 void check_wall_noise(SensorBench& bench);         ///< V-A1, V-A2
 void check_kinect_noise(SensorBench& bench);       ///< V-A3

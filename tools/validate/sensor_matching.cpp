@@ -14,13 +14,6 @@ namespace {
 constexpr double kHalfWindow = 3.5;  // px, matching window of 7 x 7
 const char* const kPreset = "d435_848";
 
-// Missing pixels a row beside the plate's left outline: from 25 px on the wall to 5 px on the plate.
-double shadow_width(const BenchView& view, const Image<float>& depth, double plate_left) {
-  const int edge = static_cast<int>(std::lround(plate_left));
-  const ImageRegion strip{edge - 25, view.centre.v0, edge + 5, view.centre.v1};
-  return (1 - fill_rate(depth, strip)) * (strip.u1 - strip.u0);
-}
-
 void walls(SensorBench& bench, const std::string& type, const SensorModel& sensor) {
   const std::vector<double> ranges = {0.5, 0.7, 1.0};
   const int frames = bench.quick() ? 1 : 5;
@@ -45,12 +38,13 @@ void step(SensorBench& bench, const std::string& type, const SensorModel& sensor
   constexpr double kPlate = 0.45, kWall = 0.50;
   const DepthCamera& row = depth_camera(kPreset);
   const BenchView view = bench.step(sensor, kPlate, kWall, 0, true);
-  const double plate_left = view.camera.cx - 0.5 * SensorBench::kPlateWidth / kPlate * view.camera.fx;
+  const double expected = row.fB() * (1 / kPlate - 1 / kWall);
   const int frames = bench.quick() ? 1 : 5;
   std::vector<double> widths;
-  for (int k = 0; k < frames; ++k) widths.push_back(shadow_width(view, bench.shoot(sensor, view, k), plate_left));
-  bench.verdicts().push_back({"V-A7", type + ", step 450/500 mm: shadow width", mean_of(widths),
-                              row.fB() * (1 / kPlate - 1 / kWall), kHalfWindow, "px"});
+  for (int k = 0; k < frames; ++k)
+    widths.push_back(missing_left_of_plate(view, bench.shoot(sensor, view, k), kPlate, expected));
+  bench.verdicts().push_back(
+      {"V-A7", type + ", step 450/500 mm: shadow width", mean_of(widths), expected, kHalfWindow, "px"});
 }
 
 }  // namespace
