@@ -204,6 +204,13 @@ void write_png(const std::string& path, const Image<Rgb>& image) {
                   image.data());
 }
 
+void write_png8(const std::string& path, const Image<std::uint8_t>& image) {
+  BP_CHECK(!image.empty());
+  const auto width = static_cast<std::uint32_t>(image.width());
+  write_png_bytes(path, {width, static_cast<std::uint32_t>(image.height()), 8, PNG_COLOR_TYPE_GRAY, width},
+                  image.data());
+}
+
 void write_png16(const std::string& path, const Image<std::uint16_t>& image) {
   static_assert(std::endian::native == std::endian::little, "png_set_swap assumes a little-endian host");
   BP_CHECK(!image.empty());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/depth_range.hpp"
+
 namespace binpick {
 namespace {
 
@@ -52,21 +54,6 @@ Colour colour_of(std::int32_t id) {
 }
 
 bool is_part(std::int32_t id) { return id >= 0 && id < kIdBin; }
-
-// Smallest and largest z of C of the scene's corners, a little widened.
-std::pair<double, double> depth_range(const RenderScene& scene, const Pose& X_WC) {
-  double low = 1e9, high = 0;
-  for (const RenderItem& item : scene.items) {
-    const Pose X_CO = X_WC.inverse() * item.X_WO;
-    for (const Eigen::Vector3d& p_O : item.mesh_O->vertices) {
-      const double z = (X_CO * p_O).z();
-      low = std::min(low, z);
-      high = std::max(high, z);
-    }
-  }
-  const double near = std::max(0.9 * low, 0.02);
-  return {near, std::max(1.05 * high, 2 * near)};
-}
 
 // What the key light sees: points farther from it than the map says are in shadow.
 class ShadowMap {

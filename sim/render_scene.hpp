@@ -1,4 +1,5 @@
-// What a camera looks at: meshes with poses, ids and reflectance. Built by trials from the world, drawn by a DepthRenderer.
+// What a camera looks at: meshes with poses, ids and reflectance. Built by trials from the world, drawn by a
+// DepthRenderer.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "core/material.hpp"
 #include "core/mesh.hpp"
 #include "core/pose.hpp"
+#include "sim/surface_texture.hpp"
 
 namespace binpick {
 
@@ -23,7 +25,8 @@ struct RenderItem {
   std::shared_ptr<const TriangleMesh> mesh_O;
   Pose X_WO = Pose::Identity();
   std::int32_t id = kIdNothing;
-  Material material;  ///< items that share an id share it
+  Material material;                                        ///< items that share an id share it
+  std::shared_ptr<const SurfaceTexture> texture = nullptr;  ///< grey images alone show it; such an item's id is its own
 };
 
 struct RenderScene {

@@ -4,6 +4,8 @@
 #include <iostream>
 
 #include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "sim/grey_image.hpp"
 #include "tools/commands.hpp"
 #include "trials/observation.hpp"
 #include "trials/render_folder.hpp"
@@ -14,7 +16,15 @@ namespace {
 struct Options {
   std::string scene, out, sensor;
   std::uint64_t seed = 0;
+  bool grey = false;
 };
+
+// What a grey camera of the same intrinsics sees from the same place, through the lens of the cell file.
+void write_grey(const std::string& file, const Scenario& s, const CellWorld& cell_world, DepthRenderer& renderer,
+                Seed trial_seed) {
+  const GreyCamera camera{s.cell.camera.intrinsics, s.cell.camera.lens, s.cell.camera_pose(cell_world.joints())};
+  write_png8(file, capture_grey(renderer, cell_world.render_scene(), camera, {}, trial_seed.child("sensor")));
+}
 
 int run(const Options& options) {
   Scenario scenario = read_scenario(options.scene, {options.sensor});
@@ -26,6 +36,7 @@ int run(const Options& options) {
   const Observation seen = observe(scenario, cell_world, context, Seed{options.seed}, 0);
   write_render_folder(options.out, scenario, {context.hash, options.seed, settled}, seen.captures.front(), cell_world,
                       *context.renderer);
+  if (options.grey) write_grey(options.out + "/grey.png", scenario, cell_world, *context.renderer, Seed{options.seed});
   std::cout << options.out << std::endl;
   if (!std::cout) throw StorageError("standard output: cannot write");
   return 0;
@@ -40,6 +51,7 @@ Action add_render(CLI::App& app) {
   command->add_option("scene", options->scene, "scene file (YAML)")->required();
   command->add_option("--seed", options->seed, "seed of the trial whose heap is looked at")->required();
   command->add_option("--out", options->out, "folder for the files")->required();
+  command->add_flag("--grey", options->grey, "also grey.png, as a grey camera in the same place would see it");
   add_sensor_option(*command, options->sensor);
   return [options] { return run(*options); };
 }

@@ -95,7 +95,8 @@ TEST_F(Render, EveryLabelIsInTheLegendAndEveryPartIsThere) {
 
 TEST_F(Render, AnotherSensorSeesTheSameHeap) {
   const std::string ideal = folder_->path("ideal");
-  ASSERT_EQ(run_program("render " + scene() + " --seed 4 --sensor ideal --out " + ideal).code, 0);
+  ASSERT_EQ(run_program("render " + scene() + " --seed 4 --sensor ideal --grey --out " + ideal).code, 0);
+  EXPECT_THAT(read_file(ideal + "/grey.png").substr(1, 3), testing::StrEq("PNG"));
   EXPECT_EQ(read_file(ideal + "/ids.png"), read_file(file("ids.png")));
   const Image<float> exact = read_tiff(ideal + "/depth.tiff"), seen = read_tiff(file("depth.tiff"));
   ASSERT_EQ(exact.size(), seen.size());
