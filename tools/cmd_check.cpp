@@ -30,13 +30,15 @@ void check(const std::string& file) {
     is_part = v.has("mesh");
     is_part ? spec.visit(v) : Scenario().visit(v);
   });
-  std::printf("%s\n", file.c_str());
   if (is_part) {
-    print_part(load_part(spec));
+    const Part part = load_part(spec);
+    std::printf("%s\n", file.c_str());
+    print_part(part);
     return;
   }
   Scenario scenario = read_scenario(file);
   const TrialContext context = make_trial_context(scenario);
+  std::printf("%s\n", file.c_str());
   for (const Part& part : context.parts) print_part(part);
   std::printf("  scene %s: %d parts, sensor %s, estimator %s, arm %s, hash %s\n", scenario.name.c_str(),
               scenario.part_count(), scenario.sensor_type.c_str(), scenario.estimator_type.c_str(),

@@ -60,6 +60,12 @@ void visit_sensor(ConfigVisitor& v, Scenario& s) {
       },
       "the depth camera's model");
   if (!s.sensor) s.sensor = make_sensor(s.sensor_type);
+  if (!v.has("sensor")) return;
+  try {
+    s.sensor->validate();  // here, where the line is known
+  } catch (const SpecError& error) {
+    v.fail("sensor", error.what());
+  }
 }
 
 void override_sensor(Scenario& s, const std::string& text) {

@@ -31,14 +31,16 @@ std::unique_ptr<SensorModel> make_sensor(const std::string& name) {
 }
 
 void check_depth_range(const char* model, double z_min, double z_max) {
-  if (!(z_min >= 0.01 && z_max > z_min && z_max <= 20))
-    throw SpecError(std::string("sensor ") + model + ": z_min and z_max must satisfy 10 mm <= z_min < z_max <= 20 m");
+  if (z_min >= 0.01 && z_max > z_min && z_max <= 20) return;
+  std::ostringstream text;
+  text << model << ": z_min " << z_min << " m and z_max " << z_max << " m must satisfy 10 mm <= z_min < z_max <= 20 m";
+  throw SpecError(text.str());
 }
 
 void check_between(const char* model, const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;
   std::ostringstream text;
-  text << "sensor " << model << ": " << key << " must lie between " << low << " and " << high;
+  text << model << ": " << key << " is " << value << " and must lie between " << low << " and " << high;
   throw SpecError(text.str());
 }
 

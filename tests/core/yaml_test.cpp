@@ -144,6 +144,9 @@ TEST(Quantity, UnitsAndShortestText) {
 TEST(NearestName, FindsNeighboursAndGivesUpOnStrangers) {
   EXPECT_EQ(nearest_name("cont", {"count", "height"}), "count");
   EXPECT_EQ(nearest_name("zzzzzz", {"count", "height"}), "");
+  EXPECT_EQ(nearest_name("d435", {"kinect_v1", "d435_848", "d435_1280"}), "d435_848");  // the beginning of a name
+  EXPECT_EQ(nearest_name("d345", {"kinect_v1", "d435_848", "d435_848_out_of_box"}), "");  // two letters of four differ
+  EXPECT_EQ(nearest_name("k", {"kinect_v1"}), "");
 }
 
 }  // namespace

@@ -58,10 +58,10 @@ class BadSceneTest : public testing::TestWithParam<BadScene> {
 
 TEST_P(BadSceneTest, IsOneLineExitTwoAndNothingWritten) {
   write_file(folder_.path("scene.yaml"), GetParam().text);
-  for (const std::string command : {"trial", "campaign", "render"}) {
-    const std::string seeds = command == "campaign" ? " --seeds 1:3" : " --seed 1";
-    const ProgramRun run =
-        run_program(command + " " + folder_.path("scene.yaml") + seeds + " --out " + folder_.path("run"));
+  const std::string file = folder_.path("scene.yaml"), out = " --out " + folder_.path("run");
+  for (const std::string& command : {"check " + file, "trial " + file + " --seed 1" + out,
+                                     "campaign " + file + " --seeds 1:3" + out, "render " + file + " --seed 1" + out}) {
+    const ProgramRun run = run_program(command);
     EXPECT_EQ(run.code, 2) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     for (const char* part : GetParam().said) EXPECT_THAT(run.err, HasSubstr(part));
@@ -75,7 +75,38 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadScene{"unknown key", scene(kBox, "drop:\n  heihgt: 0.3\n"), {"scene.yaml:5", "drop.heihgt", "drop.height"}},
         BadScene{"unknown sensor", scene(kBox, "sensor: {type: disparty}\n"), {"scene.yaml:4", "disparity"}},
-        BadScene{"unknown preset", scene(kBox, "sensor: {type: disparity, preset: d435}\n"), {"preset", "d435_848"}},
+        BadScene{"unknown preset",
+                 scene(kBox, "sensor: {type: disparity, preset: d435}\n"),
+                 {"scene.yaml:4: sensor.preset", "did you mean d435_848?"}},
+        BadScene{"misspelt preset",
+                 scene(kBox, "sensor:\n  type: gauss_z\n  preset: azure_kinetc\n"),
+                 {"scene.yaml:6: sensor.preset", "did you mean azure_kinect?"}},
+        BadScene{"preset of another model",
+                 scene(kBox, "sensor: {type: active_stereo, preset: kinect_v1}\n"),
+                 {"scene.yaml:4: sensor.preset", "d435_848"}},
+        BadScene{"near beyond far",
+                 scene(kBox, "sensor: {type: disparity, z_min: 2 m, z_max: 1 m}\n"),
+                 {"scene.yaml:4: sensor", "z_min 2 m and z_max 1 m"}},
+        BadScene{"near beyond the preset's far",
+                 scene(kBox, "sensor: {type: gauss_z, preset: zivid_2, z_min: 1.6}\n"),
+                 {"scene.yaml:4: sensor", "z_min 1.6 m and z_max 1.5 m"}},
+        BadScene{"near and far the same",
+                 scene(kBox, "sensor: {type: ideal, z_min: 1, z_max: 1}\n"),
+                 {"scene.yaml:4: sensor", "z_min 1 m and z_max 1 m"}},
+        BadScene{"negative noise",
+                 scene(kBox, "sensor: {type: disparity, subpixel_noise: -1}\n"),
+                 {"scene.yaml:4: sensor", "subpixel_noise is -1"}},
+        BadScene{"noise that is not a number",
+                 scene(kBox, "sensor: {type: disparity, subpixel_noise: .nan}\n"),
+                 {"scene.yaml:4: sensor.subpixel_noise", "not a finite number"}},
+        BadScene{"zero resolution",
+                 kBox + "cell: {base: " + kRoot +
+                     "/assets/cells/mz07_one_cup.yaml, camera: {intrinsics: {width: 0, height: 480}}}\n",
+                 {"scene.yaml", "cell.camera", "width and height"}},
+        BadScene{
+            "negative focal length",
+            kBox + "cell: {base: " + kRoot + "/assets/cells/mz07_one_cup.yaml, camera: {intrinsics: {fx: -400}}}\n",
+            {"scene.yaml", "cell.camera", "fx and fy must be positive"}},
         BadScene{"unknown estimator", scene(kBox, "estimator: {type: papr_ppf}\n"), {"estimator.type", "paper_ppf"}},
         BadScene{"zero parts", scene(kBox + "count: 0\n"), {"scene.yaml", "count", "at least one part"}},
         BadScene{"negative parts", scene(kBox + "count: -3\n"), {"scene.yaml", "count"}},
