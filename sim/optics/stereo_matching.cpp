@@ -46,7 +46,7 @@ Image<float> match_pair(const Image<std::uint8_t>& left, const Image<std::uint8_
       if (d > 0 && u - d >= -0.5) disparity(u, v) = static_cast<float>(d);
     }
   }
-  drop_plain(left, how.block, how.contrast, disparity);
+  drop_plain(left, how, disparity);
   fit_subpixel(left, right, how.block, disparity, threads);
   return disparity;
 }

@@ -43,6 +43,24 @@ Eigen::Array4f cubic_weights(float t) {
           0.5f * t * t * (t - 1)};
 }
 
+struct GreySums {
+  long sum = 0, square = 0, saturated = 0;
+  void add(long grey, long sign) {
+    sum += sign * grey;
+    square += sign * grey * grey;
+    saturated += sign * (grey == 255);
+  }
+  void add(const GreySums& other) {
+    sum += other.sum;
+    square += other.square;
+    saturated += other.saturated;
+  }
+  double variance(double n) const {
+    const double mean = static_cast<double>(sum) / n;
+    return static_cast<double>(square) / n - mean * mean;
+  }
+};
+
 struct WindowFit {
   const Padded& left;
   const Padded& right;
@@ -92,29 +110,23 @@ float refined(const WindowFit& fit, int u, int v, double start) {
 
 }  // namespace
 
-void drop_plain(const Image<std::uint8_t>& left, int block, double contrast, Image<float>& disparity) {
-  const int half = block / 2, width = left.width(), height = left.height();
+void drop_plain(const Image<std::uint8_t>& left, const StereoMatching& how, Image<float>& disparity) {
+  const int half = how.block / 2, width = left.width(), height = left.height();
+  const double n = static_cast<double>(how.block) * how.block;
   // Sums over columns of `block` rows, then over windows: exact in integers.
-  std::vector<long> sum(static_cast<std::size_t>(width)), square(sum.size());
+  std::vector<GreySums> columns(static_cast<std::size_t>(width));
   const auto add_row = [&](int v, long sign) {
-    for (int u = 0; u < width; ++u) {
-      const long g = left(u, std::clamp(v, 0, height - 1));
-      sum[static_cast<std::size_t>(u)] += sign * g;
-      square[static_cast<std::size_t>(u)] += sign * g * g;
-    }
+    for (int u = 0; u < width; ++u)
+      columns[static_cast<std::size_t>(u)].add(left(u, std::clamp(v, 0, height - 1)), sign);
   };
   for (int v = -half; v < half; ++v) add_row(v, 1);
   for (int v = 0; v < height; ++v) {
     add_row(v + half, 1);
     for (int u = 0; u < width; ++u) {
-      long s = 0, q = 0;
-      for (int k = -half; k <= half; ++k) {
-        const auto i = static_cast<std::size_t>(std::clamp(u + k, 0, width - 1));
-        s += sum[i];
-        q += square[i];
-      }
-      const double n = static_cast<double>(block) * block, mean = static_cast<double>(s) / n;
-      if (static_cast<double>(q) / n - mean * mean < contrast * contrast)
+      GreySums window;
+      for (int k = -half; k <= half; ++k)
+        window.add(columns[static_cast<std::size_t>(std::clamp(u + k, 0, width - 1))]);
+      if (window.variance(n) < how.contrast * how.contrast || window.saturated > how.saturated_share * n)
         disparity(u, v) = std::numeric_limits<float>::quiet_NaN();
     }
     add_row(v - half, -1);

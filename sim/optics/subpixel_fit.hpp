@@ -6,11 +6,13 @@
 #include <cstdint>
 
 #include "core/image.hpp"
+#include "sim/optics/stereo_matching.hpp"
 
 namespace binpick {
 
-/// NaN where the standard deviation of the grey levels in the window is below `contrast`.
-void drop_plain(const Image<std::uint8_t>& left, int block, double contrast, Image<float>& disparity);
+/// NaN where the window tells nothing: the standard deviation of its grey levels is below `contrast`, or more than
+/// `saturated_share` of its pixels are at the limit (what is left then is its outline).
+void drop_plain(const Image<std::uint8_t>& left, const StereoMatching& how, Image<float>& disparity);
 
 /// Refines every disparity by at most one pixel; where the fit runs further away there is no match.
 void fit_subpixel(const Image<std::uint8_t>& left, const Image<std::uint8_t>& right, int block, Image<float>& disparity,

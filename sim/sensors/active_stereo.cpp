@@ -7,7 +7,7 @@
 //   3. lens blur; exposure (metered so that the left image has a given mean); speckle Gamma(k, 1/k), part of it fixed
 //      with the camera seed; thermal noise; 8 bits, so that highlights saturate
 //   4. OpenCV's semi-global matcher in three paths, its uniqueness, left-right, median and speckle tests; windows
-//      without contrast are dropped
+//      without contrast, or with too many saturated pixels, are dropped
 //   5. least-squares subpixel fit; d in steps of 1/32 px; z = f B / d in whole depth units within z_min .. z_max
 // The dots are drawn once for each camera seed. f is the scene camera's fx, so f B follows the resolution; dots keep
 // their angle. Both imagers have the same intrinsics; what lies outside the right image is lost.
@@ -35,6 +35,7 @@
 // | uniqueness         | 10       | same      | %    | by which the best cost must win (A3.4 has 15 for a census cost)
 // | speckle_size       | 60       | same      | px   | smaller islands of matches are removed (untuned)
 // | contrast           | 3        | same      | grey | least standard deviation in the window (untuned)
+// | saturated_share    | 0.5      | same      |      | of a window at 255: with more nothing is matched (untuned)
 // | disparity_step     | 1/32     | same      | px   | 0 for none (A1)
 // | stated_noise       | 0.08     | same      | px   | what the data sheet's noise amounts to (A2); not used in drawing
 // | stated_fattening   | 1        | same      | px   | growth of the foreground that is stated; not used in drawing
@@ -153,6 +154,7 @@ void ActiveStereoSensor::visit(ConfigVisitor& v) {
   v.field("uniqueness", p_.matching.uniqueness, "per cent by which the best match must win");
   v.field("speckle_size", p_.matching.speckle_size, "smaller islands of matches are removed, px");
   v.field("contrast", p_.matching.contrast, Unit::kNone, "least standard deviation in the window, grey levels");
+  v.field("saturated_share", p_.matching.saturated_share, Unit::kNone, "of a window; with more there is no match");
   v.field("disparity_step", p_.disparity_step, Unit::kNone, "step of the disparity, px; 0 for none");
   v.field("stated_noise", p_.stated_noise, Unit::kNone, "subpixel noise that the data sheet states, px");
   v.field("stated_fattening", p_.stated_fattening, Unit::kNone, "growth of the foreground that is stated, px");
@@ -185,6 +187,7 @@ void ActiveStereoSensor::validate() const {
   check("uniqueness", p_.matching.uniqueness, 0, 100);
   check("speckle_size", p_.matching.speckle_size, 0, 1e6);
   check("contrast", p_.matching.contrast, 0, 100);
+  check("saturated_share", p_.matching.saturated_share, 0, 1);
   check("disparity_step", p_.disparity_step, 0, 1);
   check("stated_noise", p_.stated_noise, 0, 2);
   check("stated_fattening", p_.stated_fattening, 0, 10);

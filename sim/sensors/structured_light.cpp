@@ -5,11 +5,12 @@
 //      own depth map, ambient light
 //   2. cosines over the projector's columns, `steps` shifts of 1, ratio and ratio^2 periods; brightness 0 .. 1
 //   3. optionally light by way of one other surface; lens blur
-//   4. every shot: photon noise, read noise, speckle of the light, saturation, 8 .. 16 bits
+//   4. every shot: photon noise, read noise, speckle of the light, saturation, 8 .. 16 bits; a pixel that saturates is
+//      taken from the next shorter exposure
 //   5. wrapped phases, each unwrapped by the one before; pixels that saturate or hardly vary are lost
 //   6. z where the pixel's ray meets the column's plane; lone pixels are lost; whole depth units within z_min .. z_max
-// A wall's noise is sigma_z = z^2 sigma_px / (f B); sigma_px follows from the shots (tests work it out on paper). The
-// exposure is fixed, one shot for bright and dark alike, and nothing stays with the unit: noise is new in every frame.
+// A wall's noise is sigma_z = z^2 sigma_px / (f B); sigma_px follows from the shots (tests work it out on paper).
+// Exposures are fixed, and nothing stays with the unit: noise is new in every frame.
 //
 // Presets: `zivid_2` (default) and `phoxi_m`, each at half of its camera's resolution; f, B and z range are rows of
 // camera_table.cpp. B, and sigma 0.055 mm at 0.7 m and 0.10 mm at 0.65 m, are recalled values ([R] in physical_models
@@ -38,8 +39,8 @@
 // | z_min            | 0.3 m   | 0.458 m | m    | A2
 // | z_max            | 1.5 m   | same    | m    | A2
 //
-// What it cannot do: real devices merge several exposures, so that shiny metal keeps more points than here; they
-// filter and fill, by rules that are not published. Stripes are ideal cosines: no defocus of the projector, no
+// What it cannot do: real devices choose exposures for the scene, filter and fill by rules that are not published.
+// Stripes are ideal cosines: no defocus of the projector, no
 // gamma, no sampling of its mirrors. Interreflection is a coarse gather (stripe_light.hpp) without shadows or lobes:
 // mirror images of stripes, which real polished concave corners show, do not exist here. One lobe stands for all metal.
 // Nothing moves between the shots, and no bias of calibration or temperature is drawn.
@@ -54,45 +55,21 @@
 #include "sim/noise/depth_grid.hpp"
 #include "sim/optics/infrared_imager.hpp"
 #include "sim/optics/stripe_light.hpp"
+#include "sim/optics/stripe_shots.hpp"
 #include "sim/sensors/camera_table.hpp"
 #include "sim/sensors/models.hpp"
 
 namespace binpick {
 namespace {
 
-struct StripeCamera {
-  double full_well = 52000;  // electrons
-  double read_noise = 10;    // electrons
-  int bits = 12;
-  double speckle = 0;  // share of the light
-
-  double variance(double electrons) const {
-    const double e = std::max(electrons, 0.0);
-    return e + read_noise * read_noise + speckle * speckle * e * e;
-  }
-  double quantised(double electrons) const {
-    const double step = full_well / (1 << bits);
-    return std::max(std::round(electrons / step), 0.0) * step;
-  }
-};
-
-struct Decoder {
-  PhaseShift stripes;
-  std::vector<PhaseShift::Shift> shifts;
-  double gain;  // electrons per unit of radiance
-};
-
 struct StructuredLightParameters {
   double baseline = 0;
   double working_distance = 0.7;
   double projector_fov = 0;
-  int steps = 4, ratio = 10;
-  double contrast = 0.9;
-  double ambient = 0.1;
+  PhaseShift stripes;
   double exposure = 0.75;
   double blur = 0.1;
-  StripeCamera camera_noise;
-  double modulation = 0.01;
+  StripeShots shots;
   double outlier = 0.005;
   bool interreflection = false;
   double stated_noise = 0;
@@ -115,7 +92,7 @@ StructuredLightParameters preset_values(const std::string& preset) {
   if (preset == "phoxi_m") {
     p.working_distance = 0.65;
     p.projector_fov = 53 * kDegree;
-    p.camera_noise.speckle = 0.031;
+    p.shots.speckle = 0.031;
     p.stated_noise = 0.0735;
   }
   return p;
@@ -137,11 +114,10 @@ class StructuredLightSensor : public SensorModel {
  private:
   Pose projector_pose() const;
   StripeBasis light_of(const SensorView& view, const PhaseShift& stripes) const;
-  double position(const StripeBasis& basis, const Decoder& decoder, std::size_t pixel, Rng noise) const;
   Image<float> without_outliers(const Image<float>& depth) const;
   /// Electrons per unit of radiance: a white wall at the working distance fills `exposure` of the well.
-  double gain() const {
-    return p_.exposure * p_.camera_noise.full_well * std::numbers::pi * p_.working_distance * p_.working_distance;
+  double longest_gain() const {
+    return p_.exposure * p_.shots.full_well * std::numbers::pi * p_.working_distance * p_.working_distance;
   }
 
   std::string preset_ = kPresets.front();
@@ -154,17 +130,19 @@ void StructuredLightSensor::visit(ConfigVisitor& v) {
   v.field("baseline", p_.baseline, Unit::kLength, "projector at +x of the camera");
   v.field("working_distance", p_.working_distance, Unit::kLength, "where the two axes meet");
   v.field("projector_fov", p_.projector_fov, Unit::kAngle, "horizontal field of view of the projector");
-  v.field("steps", p_.steps, "phase shifts of each frequency");
-  v.field("ratio", p_.ratio, "of one frequency to the next: 1, ratio, ratio^2 periods");
-  v.field("contrast", p_.contrast, Unit::kNone, "modulation of the projected cosines");
-  v.field("ambient", p_.ambient, Unit::kNone, "ambient irradiance; white light of the projector has 1 at 1 m");
+  v.field("steps", p_.stripes.steps, "phase shifts of each frequency");
+  v.field("ratio", p_.stripes.ratio, "of one frequency to the next: 1, ratio, ratio^2 periods");
+  v.field("contrast", p_.shots.contrast, Unit::kNone, "modulation of the projected cosines");
+  v.field("ambient", p_.shots.ambient, Unit::kNone, "ambient irradiance; white light of the projector has 1 at 1 m");
   v.field("exposure", p_.exposure, Unit::kNone, "share of the well that a white wall fills at the working distance");
+  v.field("exposures", p_.shots.exposures,
+          "tried one after the other, each a quarter of the one before, while pixels saturate");
   v.field("blur", p_.blur, Unit::kNone, "weight of each neighbour in the lens blur");
-  v.field("full_well", p_.camera_noise.full_well, Unit::kNone, "electrons at which a pixel saturates");
-  v.field("read_noise", p_.camera_noise.read_noise, Unit::kNone, "standard deviation, electrons");
-  v.field("bits", p_.camera_noise.bits, "of the camera's digitiser");
-  v.field("speckle", p_.camera_noise.speckle, Unit::kNone, "noise of the light itself, share, new in every shot");
-  v.field("modulation", p_.modulation, Unit::kNone, "least amplitude of the cosine, share of the well");
+  v.field("full_well", p_.shots.full_well, Unit::kNone, "electrons at which a pixel saturates");
+  v.field("read_noise", p_.shots.read_noise, Unit::kNone, "standard deviation, electrons");
+  v.field("bits", p_.shots.bits, "of the camera's digitiser");
+  v.field("speckle", p_.shots.speckle, Unit::kNone, "noise of the light itself, share, new in every shot");
+  v.field("modulation", p_.shots.modulation, Unit::kNone, "least amplitude of the cosine, share of the well");
   v.field("outlier", p_.outlier, Unit::kLength, "a pixel needs three neighbours nearer than this in depth; 0: no test");
   v.field("interreflection", p_.interreflection, "light by way of one other surface");
   v.field("stated_noise", p_.stated_noise, Unit::kNone, "what the data sheet's noise amounts to, px");
@@ -181,17 +159,18 @@ void StructuredLightSensor::validate() const {
   check("baseline", p_.baseline, 0.005, 2);
   check("working_distance", p_.working_distance, 0.05, 20);
   check("projector_fov", p_.projector_fov, 0.1, 2);
-  check("steps", p_.steps, 3, 32);
-  check("ratio", p_.ratio, 2, 20);
-  check("contrast", p_.contrast, 0.05, 1);
-  check("ambient", p_.ambient, 0, 1e6);
+  check("steps", p_.stripes.steps, 3, 32);
+  check("ratio", p_.stripes.ratio, 2, 20);
+  check("contrast", p_.shots.contrast, 0.05, 1);
+  check("ambient", p_.shots.ambient, 0, 1e6);
   check("exposure", p_.exposure, 1e-4, 1e3);
+  check("exposures", p_.shots.exposures, 1, 6);
   check("blur", p_.blur, 0, 0.33);
-  check("full_well", p_.camera_noise.full_well, 100, 1e7);
-  check("read_noise", p_.camera_noise.read_noise, 0, 1e4);
-  check("bits", p_.camera_noise.bits, 6, 16);
-  check("speckle", p_.camera_noise.speckle, 0, 1);
-  check("modulation", p_.modulation, 1e-4, 0.5);
+  check("full_well", p_.shots.full_well, 100, 1e7);
+  check("read_noise", p_.shots.read_noise, 0, 1e4);
+  check("bits", p_.shots.bits, 6, 16);
+  check("speckle", p_.shots.speckle, 0, 1);
+  check("modulation", p_.shots.modulation, 1e-4, 0.5);
   check("outlier", p_.outlier, 0, 1);
   check("stated_noise", p_.stated_noise, 0, 2);
   check("depth_unit", p_.grid.unit, 0, 0.01);
@@ -219,29 +198,6 @@ StripeBasis StructuredLightSensor::light_of(const SensorView& view, const PhaseS
   return basis;
 }
 
-// Every stripe image of one pixel is shot and decoded here; NaN where it saturates or hardly varies.
-double StructuredLightSensor::position(const StripeBasis& basis, const Decoder& decoder, std::size_t pixel,
-                                       Rng noise) const {
-  const StripeCamera& shot = p_.camera_noise;
-  const double nothing = std::nan(""), least = p_.modulation * shot.full_well;
-  const double beam = decoder.gain * basis.beam(pixel);
-  if (beam * p_.contrast < least) return nothing;
-  const double steady = decoder.gain * p_.ambient * basis.ambient[pixel] + 0.5 * beam;
-  std::array<double, PhaseShift::kFrequencies> wrapped;
-  for (int f = 0; f < PhaseShift::kFrequencies; ++f) {
-    PhaseSums sums;
-    for (const PhaseShift::Shift& shift : decoder.shifts) {
-      const double e = steady + 0.5 * p_.contrast * decoder.gain * basis.wave(f, shift, pixel);
-      const double seen = e + std::sqrt(shot.variance(e)) * noise.normal();
-      if (seen >= shot.full_well) return nothing;
-      sums.add(shot.quantised(seen), shift);
-    }
-    if (sums.amplitude(p_.steps) < least) return nothing;
-    wrapped[static_cast<std::size_t>(f)] = sums.phase();
-  }
-  return decoder.stripes.position(wrapped);
-}
-
 Image<float> StructuredLightSensor::without_outliers(const Image<float>& depth) const {
   if (!(p_.outlier > 0)) return depth;
   Image<float> kept = depth;
@@ -259,9 +215,10 @@ Image<float> StructuredLightSensor::without_outliers(const Image<float>& depth) 
 
 Image<float> StructuredLightSensor::capture(const SensorView& view, Seed, Seed frame_seed) const {
   BP_CHECK(view.from_device);
-  const PhaseShift stripes{p_.steps, p_.ratio, std::tan(0.5 * p_.projector_fov)};
+  PhaseShift stripes = p_.stripes;
+  stripes.half = std::tan(0.5 * p_.projector_fov);
   const StripeBasis basis = light_of(view, stripes);
-  const Decoder decoder{stripes, stripes.shifts(), gain()};
+  const StripeDecoder decoder(basis, stripes, p_.shots, longest_gain());
   const Pose X_CD = projector_pose(), X_DC = X_CD.inverse();
   const Rng noise = frame_seed.child("shots").rng();
   Image<float> depth(view.camera.width, view.camera.height, std::nanf(""));
@@ -269,7 +226,7 @@ Image<float> StructuredLightSensor::capture(const SensorView& view, Seed, Seed f
     const int v = static_cast<int>(row);
     for (int u = 0; u < depth.width(); ++u) {
       const std::size_t pixel = row * static_cast<std::size_t>(depth.width()) + static_cast<std::size_t>(u);
-      const double x = position(basis, decoder, pixel, noise.at(pixel));
+      const double x = decoder.position(pixel, noise.at(pixel));
       if (std::isnan(x)) continue;
       // The column x is the plane m . (p_C - p_CD) = 0 with m = R_DC's rows 1 - x 3; it meets the pixel's ray at z.
       const Eigen::Vector3d m = (X_DC.linear().row(0) - x * X_DC.linear().row(2)).transpose();
