@@ -33,11 +33,19 @@ double published_sigma(const std::string& preset, double z) {
 }  // namespace
 
 std::string plot_noise(SensorBench& bench, const std::string& folder) {
-  const PlotSubject subjects[] = {
-      {"disparity", "d415_1280"},       {"disparity", "d435_848"},  {"disparity", "d435_1280"},
-      {"disparity", "d405_848"},        {"disparity", "d405_1280"}, {"disparity", "d455_848"},
-      {"active_stereo", "d435_848", 1}, {"gauss_z", "kinect_v1"},   {"gauss_z", "azure_kinect"},
-      {"gauss_z", "zivid_2"},           {"gauss_z", "phoxi_m"}};
+  const PlotSubject subjects[] = {{"disparity", "d415_1280"},
+                                  {"disparity", "d435_848"},
+                                  {"disparity", "d435_1280"},
+                                  {"disparity", "d405_848"},
+                                  {"disparity", "d405_1280"},
+                                  {"disparity", "d455_848"},
+                                  {"active_stereo", "d435_848", 1},
+                                  {"gauss_z", "kinect_v1"},
+                                  {"gauss_z", "azure_kinect"},
+                                  {"gauss_z", "zivid_2"},
+                                  {"gauss_z", "phoxi_m"},
+                                  {"structured_light", "zivid_2", 1},
+                                  {"structured_light", "phoxi_m", 1}};
   CurveTable table("camera,z_m,measured_mm,published_mm");
   for (const PlotSubject& subject : subjects) {
     const auto sensor = subject.make();
@@ -60,12 +68,14 @@ set xrange [0.18:2]
 set yrange [0.01:20]
 set xtics (0.2, 0.3, 0.5, 0.7, 1, 1.5, 2)
 set key outside right top
-array camera[11] = ["d415_1280", "d435_848", "d435_1280", "d405_848", "d405_1280", "d455_848", \
-  "kinect_v1", "azure_kinect", "zivid_2", "phoxi_m", "active_stereo d435_848"]
+array light[3] = ["active_stereo d435_848", "structured_light zivid_2", "structured_light phoxi_m"]
+array same[3] = [2, 9, 10]
+array camera[10] = ["d415_1280", "d435_848", "d435_1280", "d405_848", "d405_1280", "d455_848", \
+  "kinect_v1", "azure_kinect", "zivid_2", "phoxi_m"]
 plot for [i=1:8] file using (curve(camera[i], 2)):4 with lines lt i lw 1.5 notitle, \
   for [i=9:10] file using (curve(camera[i], 2)):4 with points lt i pt 2 ps 3 notitle, \
   for [i=1:10] file using (curve(camera[i], 2)):3 with points lt i title camera[i], \
-  file using (curve(camera[11], 2)):3 with points lt 2 pt 6 ps 1.8 title camera[11]
+  for [i=1:3] file using (curve(light[i], 2)):3 with points lt same[i] pt 6 ps 1.8 title light[i]
 )gp");
   return "noise_over_range";
 }

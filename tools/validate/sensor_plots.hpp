@@ -13,8 +13,9 @@ struct PlotSubject {
   std::string type, preset;
   int frames = 3;
 
-  bool matches_views() const { return type == "active_stereo"; }  ///< needs its whole image
-  std::string name() const { return matches_views() ? type + " " + preset : preset; }
+  bool matches_views() const { return type == "active_stereo"; }                      ///< needs its whole image
+  bool plays_light() const { return matches_views() || type == "structured_light"; }  ///< shoots pictures
+  std::string name() const { return plays_light() ? type + " " + preset : preset; }
   std::unique_ptr<SensorModel> make() const { return configured_sensor(type, "preset: " + preset + "\n"); }
 };
 
