@@ -16,6 +16,10 @@ target_compile_options(binpick_flags INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Werror)
 target_include_directories(binpick_flags INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/binpick>")
+# For kernels in .cpp files of their own, without Eigen or PCL: wide registers. A fused multiplication would change bits
+# (no contraction, above); nobody reads errno or floating-point exceptions, and telling so changes none.
+set(BINPICK_KERNEL_OPTIONS -O3 -march=x86-64-v3 -fno-math-errno -fno-trapping-math)
+
 if(BINPICK_SANITIZE)
   target_compile_options(binpick_flags INTERFACE -fsanitize=${BINPICK_SANITIZE} -fno-sanitize-recover=all
                                                  -fno-omit-frame-pointer

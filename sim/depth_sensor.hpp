@@ -17,6 +17,19 @@ struct Capture {
   std::vector<Visibility> visibility;  ///< truth, by part id
 };
 
+/// Where the camera stands, which unit it is, and which frame this is.
+struct CaptureRequest {
+  PinholeCamera camera;
+  Pose X_WC_true = Pose::Identity();      ///< places the camera
+  Pose X_WC_believed = Pose::Identity();  ///< what the frame says
+  Seed camera_seed, frame_seed;
+  int threads = 1;  ///< that the frame may use; its bits do not depend on it
+};
+
+/// Part ids 0 .. parts-1 are looked for.
+Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const RenderScene& scene, std::size_t parts,
+                      const CaptureRequest& request);
+
 /// `parts` part ids (0 .. parts-1) are looked for. X_WC_true places the camera, X_WC_believed is what the frame says.
 Capture capture_depth(DepthRenderer& renderer, const SensorModel& sensor, const RenderScene& scene, std::size_t parts,
                       const PinholeCamera& camera, const Pose& X_WC_true, const Pose& X_WC_believed, Seed camera_seed,

@@ -16,19 +16,17 @@
 
 namespace binpick {
 
-#define BINPICK_GL_FUNCTIONS(X)                                                                                     \
-  X(AttachShader)                                                                                                   \
-  X(BindBuffer)                                                                                                     \
-  X(BindFramebuffer) X(BindRenderbuffer) X(BindTexture) X(BindVertexArray) X(BufferData) X(CheckFramebufferStatus)  \
-      X(Clear) X(ClearBufferfv) X(ClearBufferiv) X(CompileShader) X(CreateProgram) X(CreateShader) X(DeleteBuffers) \
-          X(DeleteFramebuffers) X(DeleteRenderbuffers) X(DeleteShader) X(DeleteTextures) X(DeleteVertexArrays)      \
-              X(DepthFunc) X(Disable) X(DrawBuffers) X(DrawElements) X(Enable) X(EnableVertexAttribArray)           \
-                  X(FramebufferRenderbuffer) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures)    \
-                      X(GenVertexArrays) X(GetError) X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog)       \
-                          X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram) X(PixelStorei)           \
-                              X(ReadBuffer) X(ReadPixels) X(RenderbufferStorage) X(Scissor) X(ShaderSource)         \
-                                  X(TexBuffer) X(Uniform1f) X(Uniform1i) X(Uniform2f) X(UniformMatrix3fv)           \
-                                      X(UniformMatrix4fv) X(UseProgram) X(VertexAttribPointer) X(Viewport)
+#define BINPICK_GL_FUNCTIONS(X)                                                                                        \
+  X(AttachShader)                                                                                                      \
+  X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer) X(BindVertexArray) X(BufferData) X(CheckFramebufferStatus)      \
+      X(ClearBufferfv) X(ClearBufferiv) X(CompileShader) X(CreateProgram) X(CreateShader) X(CullFace) X(DeleteBuffers) \
+          X(DeleteFramebuffers) X(DeleteRenderbuffers) X(DeleteShader) X(DeleteVertexArrays) X(DepthFunc) X(Disable)   \
+              X(DrawBuffers) X(DrawElements) X(Enable) X(EnableVertexAttribArray) X(FramebufferRenderbuffer)           \
+                  X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenRenderbuffers) X(GenVertexArrays) X(GetError)     \
+                      X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString)             \
+                          X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadBuffer) X(ReadPixels)              \
+                              X(RenderbufferStorage) X(Scissor) X(ShaderSource) X(Uniform1i) X(Uniform2f)              \
+                                  X(UniformMatrix4fv) X(UseProgram) X(VertexAttribPointer) X(Viewport)
 
 /// The entry points that the renderer uses, without their gl prefix.
 struct GlFunctions {

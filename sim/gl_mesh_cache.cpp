@@ -1,33 +1,17 @@
 #include "sim/gl_mesh_cache.hpp"
 
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "core/check.hpp"
 
 namespace binpick {
-namespace {
-
-// Unit normal of every face, four floats each (three-float buffer textures came with OpenGL 4).
-std::vector<float> face_normals(const TriangleMesh& mesh) {
-  std::vector<float> normals;
-  normals.reserve(mesh.triangles.size() * 4);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d n =
-        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).stableNormalized();
-    for (int i = 0; i < 3; ++i) normals.push_back(static_cast<float>(n[i]));
-    normals.push_back(0);
-  }
-  return normals;
-}
-
-}  // namespace
 
 const GlMesh& GlMeshCache::get(const std::shared_ptr<const TriangleMesh>& mesh_O) {
   BP_CHECK(mesh_O != nullptr);
   GlMesh& mesh = meshes_[mesh_O.get()];
   if (mesh.source == nullptr) {
     mesh.source = mesh_O;
+    mesh.facets = std::make_unique<const MeshFacets>(*mesh_O);
     upload(mesh);
   }
   return mesh;
@@ -52,23 +36,18 @@ void GlMeshCache::upload(GlMesh& mesh) {
   positions.reserve(source.vertices.size() * 3);
   for (const Eigen::Vector3d& p : source.vertices)
     for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(p[i]));
-  const std::vector<float> normals = face_normals(source);
   const auto fill = [&](GLenum target, GLuint buffer, const void* data, std::size_t size) {
     gl.BindBuffer(target, buffer);
     gl.BufferData(target, static_cast<GLsizeiptr>(size), data, GL_STATIC_DRAW);
   };
   gl.GenVertexArrays(1, &mesh.vertex_array);
   gl.BindVertexArray(mesh.vertex_array);
-  gl.GenBuffers(3, mesh.buffers);
+  gl.GenBuffers(2, mesh.buffers);
   fill(GL_ARRAY_BUFFER, mesh.buffers[0], positions.data(), positions.size() * sizeof(float));
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   gl.EnableVertexAttribArray(0);
   static_assert(sizeof(source.triangles[0]) == 3 * sizeof(GLuint));
   fill(GL_ELEMENT_ARRAY_BUFFER, mesh.buffers[1], source.triangles.data(), source.triangles.size() * 3 * sizeof(GLuint));
-  fill(GL_TEXTURE_BUFFER, mesh.buffers[2], normals.data(), normals.size() * sizeof(float));
-  gl.GenTextures(1, &mesh.normal_texture);
-  gl.BindTexture(GL_TEXTURE_BUFFER, mesh.normal_texture);
-  gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, mesh.buffers[2]);
   gl.BindVertexArray(0);
   mesh.index_count = static_cast<GLsizei>(source.triangles.size() * 3);
   context_.check("mesh upload");
@@ -77,8 +56,7 @@ void GlMeshCache::upload(GlMesh& mesh) {
 void GlMeshCache::free(GlMesh& mesh) {
   if (mesh.index_count == 0) return;
   const GlFunctions& gl = context_.use();
-  gl.DeleteTextures(1, &mesh.normal_texture);
-  gl.DeleteBuffers(3, mesh.buffers);
+  gl.DeleteBuffers(2, mesh.buffers);
   gl.DeleteVertexArrays(1, &mesh.vertex_array);
 }
 

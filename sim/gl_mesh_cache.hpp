@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/mesh.hpp"
+#include "sim/facets.hpp"
 #include "sim/gl_context.hpp"
 
 namespace binpick {
@@ -13,9 +14,9 @@ namespace binpick {
 struct GlMesh {
   std::shared_ptr<const TriangleMesh> source;
   GLuint vertex_array = 0;
-  GLuint buffers[3] = {0, 0, 0};  ///< vertices, indices, face normals
-  GLuint normal_texture = 0;      ///< face normals by gl_PrimitiveID
+  GLuint buffers[2] = {0, 0};  ///< vertices, indices
   GLsizei index_count = 0;
+  std::unique_ptr<const MeshFacets> facets;
 };
 
 class GlMeshCache {

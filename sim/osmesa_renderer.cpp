@@ -1,13 +1,13 @@
-// OSMesa behind the DepthRenderer interface: eye-space z (R32F), ids (R32I) and normals (RGBA32F) in one pass,
-// with a 32-bit float depth buffer. Eye z is interpolated by the rasteriser, so nothing is linearised afterwards.
+// OSMesa behind the DepthRenderer interface: it tells which triangle of which item comes first in every pixel (RG32I,
+// one pass, a 32-bit float depth buffer); depth and normals follow from that triangle in double (sim/facets). Items
+// outside the picture are not drawn, and of closed ones only the front faces.
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "core/check.hpp"
 #include "sim/depth_renderer.hpp"
+#include "sim/facets.hpp"
 #include "sim/gl_context.hpp"
 #include "sim/gl_mesh_cache.hpp"
 #include "sim/picture.hpp"
@@ -23,31 +23,17 @@ uniform mat4 X_CO;
 uniform vec2 scale;    // 2 f / size
 uniform vec2 shift;    // 2 (c + 1/2) / size - 1
 uniform vec2 depth;    // (far + near) / (far - near), -2 far near / (far - near)
-out vec3 p_C;
 void main() {
-  p_C = (X_CO * vec4(p_O, 1.0)).xyz;
+  vec3 p_C = (X_CO * vec4(p_O, 1.0)).xyz;
   gl_Position = vec4(scale * p_C.xy + shift * p_C.z, depth.x * p_C.z + depth.y, p_C.z);
 }
 )";
 
 constexpr const char* kFragmentShader = R"(#version 330 core
-in vec3 p_C;
-uniform mat3 R_CO;
-uniform samplerBuffer normals_O;
-uniform int id;
-layout(location = 0) out float seen_z;
-layout(location = 1) out int seen_id;
-layout(location = 2) out vec4 seen_normal;
-void main() {
-  vec3 n_C = R_CO * texelFetch(normals_O, gl_PrimitiveID).xyz;
-  if (dot(n_C, p_C) > 0.0) n_C = -n_C;
-  seen_z = p_C.z;
-  seen_id = id;
-  seen_normal = vec4(n_C, 0.0);
-}
+uniform int item;
+layout(location = 0) out ivec2 seen;
+void main() { seen = ivec2(item, gl_PrimitiveID); }
 )";
-
-constexpr int kTargets = 3;
 
 // The framebuffer: grows to the largest image asked for; smaller images use its corner. It dies with the context, so
 // that a renderer may be destroyed by another thread than its own.
@@ -72,31 +58,30 @@ class FrameTarget {
     const GlFunctions& gl = context_.use();
     gl.GenFramebuffers(1, &frame_);
     gl.BindFramebuffer(GL_FRAMEBUFFER, frame_);
-    gl.GenRenderbuffers(kTargets + 1, planes_);
-    const GLenum formats[] = {GL_R32F, GL_R32I, GL_RGBA32F, GL_DEPTH_COMPONENT32F};
-    const GLenum places[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2, GL_DEPTH_ATTACHMENT};
-    for (int i = 0; i <= kTargets; ++i) {
+    gl.GenRenderbuffers(2, planes_);
+    const GLenum formats[] = {GL_RG32I, GL_DEPTH_COMPONENT32F}, places[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    for (int i = 0; i < 2; ++i) {
       gl.BindRenderbuffer(GL_RENDERBUFFER, planes_[i]);
       gl.RenderbufferStorage(GL_RENDERBUFFER, formats[i], width, height);
       gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, places[i], GL_RENDERBUFFER, planes_[i]);
     }
-    gl.DrawBuffers(kTargets, places);
+    gl.DrawBuffers(1, places);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw std::runtime_error("OSMesa cannot draw depth, ids and normals in one pass");
+      throw std::runtime_error("OSMesa cannot draw pairs of integers with a 32-bit depth buffer");
     width_ = width;
     height_ = height;
   }
   void free() {
     if (frame_ == 0) return;
     const GlFunctions& gl = context_.use();
-    gl.DeleteRenderbuffers(kTargets + 1, planes_);
+    gl.DeleteRenderbuffers(2, planes_);
     gl.DeleteFramebuffers(1, &frame_);
     frame_ = 0;
   }
 
   GlContext& context_;
   GLuint frame_ = 0;
-  GLuint planes_[kTargets + 1] = {};
+  GLuint planes_[2] = {};
   int width_ = 0, height_ = 0;
 };
 
@@ -106,20 +91,27 @@ class OsmesaRenderer : public DepthRenderer {
       : meshes_(context_), target_(context_), program_(context_.make_program(kVertexShader, kFragmentShader)) {
     const GlFunctions& gl = context_.use();
     const auto at = [&](const char* name) { return gl.GetUniformLocation(program_, name); };
-    at_ = {at("X_CO"), at("R_CO"), at("scale"), at("shift"), at("depth"), at("normals_O"), at("id")};
+    at_ = {at("X_CO"), at("scale"), at("shift"), at("depth"), at("item")};
   }
 
   ExactFrame render(const RenderScene& scene, const PinholeCamera& camera, const Pose& X_WC, double near,
                     double far) override {
     BP_CHECK(near > 0 && far > near, near << " .. " << far);
     meshes_.drop_unused();
-    begin(camera, near, far);
+    FacetView view{scene, camera, near, far, {}, {}};
     const Pose X_CW = X_WC.inverse();
-    for (const RenderItem& item : scene.items) draw(item, X_CW * item.X_WO);
-    ExactFrame frame = read(camera.width, camera.height);
-    frame.materials = MaterialTable(scene);
+    std::vector<const GlMesh*> meshes;
+    for (const RenderItem& item : scene.items) {
+      meshes.push_back(&meshes_.get(item.mesh_O));
+      view.X_CO.push_back(X_CW * item.X_WO);
+      view.facets.push_back(meshes.back()->facets.get());
+    }
+    begin(camera, near, far);
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+      if (meshes[i]->index_count > 0 && may_be_seen(view, i)) draw(view, i, *meshes[i]);
+    const Image<FacetId>& seen = read(camera.width, camera.height);
     context_.check("render");
-    return frame;
+    return frame_of(view, seen);
   }
 
   Image<Rgb> picture(const RenderScene& scene, const PinholeCamera& camera, const Pose& X_WC) override {
@@ -130,21 +122,20 @@ class OsmesaRenderer : public DepthRenderer {
 
  private:
   struct Uniforms {
-    GLint X_CO, R_CO, scale, shift, depth, normals_O, id;
+    GLint X_CO, scale, shift, depth, item;
   };
 
   void begin(const PinholeCamera& camera, double near, double far) {
     target_.bind(camera.width, camera.height);
     const GlFunctions& gl = context_.use();
-    const float no_depth[4] = {0, 0, 0, 0}, farthest = 1;
-    const GLint no_id[4] = {kIdNothing, 0, 0, 0};
-    gl.ClearBufferfv(GL_COLOR, 0, no_depth);
-    gl.ClearBufferiv(GL_COLOR, 1, no_id);
-    gl.ClearBufferfv(GL_COLOR, 2, no_depth);
+    const float farthest = 1;
+    const GLint nothing[4] = {-1, 0, 0, 0};
+    gl.ClearBufferiv(GL_COLOR, 0, nothing);
     gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);  // at equal depth the earlier item stays
-    gl.Disable(GL_CULL_FACE);
+    gl.CullFace(GL_BACK);
+    gl.FrontFace(GL_CW);  // rows run downwards for us, upwards for GL
     gl.UseProgram(program_);
     const auto set2 = [&](GLint place, double x, double y) {
       gl.Uniform2f(place, static_cast<float>(x), static_cast<float>(y));
@@ -152,46 +143,27 @@ class OsmesaRenderer : public DepthRenderer {
     set2(at_.scale, 2 * camera.fx / camera.width, 2 * camera.fy / camera.height);
     set2(at_.shift, 2 * (camera.cx + 0.5) / camera.width - 1, 2 * (camera.cy + 0.5) / camera.height - 1);
     set2(at_.depth, (far + near) / (far - near), -2 * far * near / (far - near));
-    gl.Uniform1i(at_.normals_O, 0);
   }
 
-  void draw(const RenderItem& item, const Pose& X_CO) {
-    const GlMesh& mesh = meshes_.get(item.mesh_O);
-    if (mesh.index_count == 0) return;
+  void draw(const FacetView& view, std::size_t item, const GlMesh& mesh) {
     const GlFunctions& gl = context_.use();
-    const Eigen::Matrix4f X = X_CO.matrix().cast<float>();
-    const Eigen::Matrix3f R = X.topLeftCorner<3, 3>();
+    const Eigen::Matrix4f X = view.X_CO[item].matrix().cast<float>();
     gl.UniformMatrix4fv(at_.X_CO, 1, GL_FALSE, X.data());
-    gl.UniformMatrix3fv(at_.R_CO, 1, GL_FALSE, R.data());
-    gl.Uniform1i(at_.id, item.id);
-    gl.BindTexture(GL_TEXTURE_BUFFER, mesh.normal_texture);
+    gl.Uniform1i(at_.item, static_cast<GLint>(item));
+    hides_its_back(view, item) ? gl.Enable(GL_CULL_FACE) : gl.Disable(GL_CULL_FACE);
     gl.BindVertexArray(mesh.vertex_array);
     gl.DrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
     gl.BindVertexArray(0);
   }
 
-  ExactFrame read(int width, int height) {
+  const Image<FacetId>& read(int width, int height) {
+    static_assert(sizeof(FacetId) == 2 * sizeof(GLint));
+    if (seen_.width() != width || seen_.height() != height) seen_ = Image<FacetId>(width, height);
     const GlFunctions& gl = context_.use();
     gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    ExactFrame frame;
-    frame.depth = Image<float>(width, height);
-    frame.ids = Image<std::int32_t>(width, height);
-    frame.normals_C = Image<Eigen::Vector3f>(width, height, Eigen::Vector3f::Zero());
-    Image<Eigen::Vector4f> normals(width, height, Eigen::Vector4f::Zero());
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
-    gl.ReadPixels(0, 0, width, height, GL_RED, GL_FLOAT, frame.depth.data());
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT1);
-    gl.ReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_INT, frame.ids.data());
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT2);
-    gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, normals.data());
-    for (std::size_t i = 0; i < frame.ids.size(); ++i) {
-      if (frame.ids[i] == kIdNothing) {
-        frame.depth[i] = std::numeric_limits<float>::quiet_NaN();
-      } else {
-        frame.normals_C[i] = normals[i].head<3>().normalized();
-      }
-    }
-    return frame;
+    gl.ReadPixels(0, 0, width, height, GL_RG_INTEGER, GL_INT, seen_.data());
+    return seen_;
   }
 
   mutable GlContext context_;  // first in, last out: the others live inside it
@@ -199,6 +171,7 @@ class OsmesaRenderer : public DepthRenderer {
   FrameTarget target_;
   GLuint program_;
   Uniforms at_{};
+  Image<FacetId> seen_;  // read into again and again
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
-// A ray caster (Embree) behind the DepthRenderer interface: the exact reference of the rasteriser. One ray through every
-// pixel centre, z = 1 along it, so that a ray's parameter is the depth and near and far clip by z of C. Embree works
-// in float and only says which triangle comes first; the depth is that triangle's plane met in double.
+// A ray caster (Embree) behind the DepthRenderer interface: the exact reference of the rasteriser. One ray through
+// every pixel centre, z = 1 along it, so that a ray's parameter is the depth and near and far clip by z of C. Embree
+// works in float and only says which triangle comes first; the depth is that triangle's plane met in double
+// (sim/facets).
 //
 // Of surfaces at the same (float) depth the earlier item wins, as in the rasteriser. Embree is held to one instruction
 // set and one thread for building; rays go in fixed packets of eight along a row: no answer depends on `threads`.
@@ -9,8 +10,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "core/check.hpp"
 #include "core/parallel.hpp"
 #include "sim/depth_renderer.hpp"
+#include "sim/facets.hpp"
 #include "sim/picture.hpp"
 
 namespace binpick {
@@ -53,9 +53,8 @@ ScenePtr mesh_scene(RTCDevice device, const TriangleMesh& mesh) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                              3 * sizeof(float), mesh.vertices.size()));
-  auto* corners =
-      static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                          3 * sizeof(std::uint32_t), mesh.triangles.size()));
+  auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
   check_device(device, "mesh");
   for (const Eigen::Vector3d& p : mesh.vertices)
     for (int i = 0; i < 3; ++i) *points++ = static_cast<float>(p[i]);
@@ -74,20 +73,21 @@ ScenePtr mesh_scene(RTCDevice device, const TriangleMesh& mesh) {
 class MeshCache {
  public:
   explicit MeshCache(RTCDevice device) : device_(device) {}
-  RTCScene get(const std::shared_ptr<const TriangleMesh>& mesh) {
+  struct Entry {
+    std::shared_ptr<const TriangleMesh> source;
+    ScenePtr scene;
+    std::unique_ptr<const MeshFacets> facets;
+  };
+  const Entry& get(const std::shared_ptr<const TriangleMesh>& mesh) {
     Entry& entry = entries_[mesh.get()];
-    if (entry.source == nullptr) entry = {mesh, mesh_scene(device_, *mesh)};
-    return entry.scene.get();
+    if (entry.source == nullptr) entry = {mesh, mesh_scene(device_, *mesh), std::make_unique<const MeshFacets>(*mesh)};
+    return entry;
   }
   void drop_unused() {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.source.use_count() == 1; });
   }
 
  private:
-  struct Entry {
-    std::shared_ptr<const TriangleMesh> source;
-    ScenePtr scene;
-  };
   RTCDevice device_;
   std::map<const TriangleMesh*, Entry> entries_;
 };
@@ -126,21 +126,17 @@ class RaycastRenderer : public DepthRenderer {
                     double far) override {
     BP_CHECK(near > 0 && far > near, near << " .. " << far);
     meshes_.drop_unused();
-    View view{scene, camera, near, far, {}, new_scene(device_.get(), RTC_BUILD_QUALITY_LOW)};
-    place(X_WC.inverse(), view);
-    ExactFrame frame;
-    frame.depth = Image<float>(camera.width, camera.height, std::numeric_limits<float>::quiet_NaN());
-    frame.ids = Image<std::int32_t>(camera.width, camera.height, kIdNothing);
-    frame.normals_C = Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero());
-    frame.materials = MaterialTable(scene);
+    FacetView view{scene, camera, near, far, {}, {}, threads_};
+    const ScenePtr rays = place(X_WC.inverse(), view);
+    Image<FacetId> seen(camera.width, camera.height);
     const std::size_t blocks = static_cast<std::size_t>((camera.height + kRowsAtOnce - 1) / kRowsAtOnce);
     parallel_for(blocks, threads_, [&](std::size_t block) {
       const int first = static_cast<int>(block) * kRowsAtOnce;
       for (int v = first; v < std::min(first + kRowsAtOnce, camera.height); ++v)
-        for (int u = 0; u < camera.width; u += kPacket) shoot(view, u, v, frame);
+        for (int u = 0; u < camera.width; u += kPacket) shoot(view, rays.get(), u, v, seen);
     });
     check_device(device_.get(), "render");
-    return frame;
+    return frame_of(view, seen);
   }
 
   Image<Rgb> picture(const RenderScene& scene, const PinholeCamera& camera, const Pose& X_WC) override {
@@ -150,34 +146,33 @@ class RaycastRenderer : public DepthRenderer {
   std::string description() const override { return "Embree " RTC_VERSION_STRING ", ray caster"; }
 
  private:
-  struct View {
-    const RenderScene& scene;
-    const PinholeCamera& camera;
-    double near, far;
-    std::vector<Pose> X_CO;  ///< by item
-    ScenePtr rays;           ///< instances, in C; instance id = item
-  };
-
-  void place(const Pose& X_CW, View& view) {
+  // The items as instances, in C; instance id = item.
+  ScenePtr place(const Pose& X_CW, FacetView& view) {
+    ScenePtr rays = new_scene(device_.get(), RTC_BUILD_QUALITY_LOW);
     for (std::size_t i = 0; i < view.scene.items.size(); ++i) {
       const RenderItem& item = view.scene.items[i];
       BP_CHECK(item.mesh_O != nullptr);
       view.X_CO.push_back(X_CW * item.X_WO);
+      view.facets.push_back(nullptr);
       if (item.mesh_O->empty()) continue;
+      const MeshCache::Entry& mesh = meshes_.get(item.mesh_O);
+      view.facets.back() = mesh.facets.get();
+      if (!may_be_seen(view, i)) continue;
       const RTCGeometry instance = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-      rtcSetGeometryInstancedScene(instance, meshes_.get(item.mesh_O));
+      rtcSetGeometryInstancedScene(instance, mesh.scene.get());
       const Eigen::Matrix4f X = view.X_CO.back().matrix().cast<float>();
       rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, X.data());
       rtcCommitGeometry(instance);
-      rtcAttachGeometryByID(view.rays.get(), instance, static_cast<unsigned>(i));
+      rtcAttachGeometryByID(rays.get(), instance, static_cast<unsigned>(i));
       rtcReleaseGeometry(instance);
     }
-    rtcCommitScene(view.rays.get());
+    rtcCommitScene(rays.get());
     check_device(device_.get(), "scene");
+    return rays;
   }
 
   // One packet: pixels u .. u + 7 of row v.
-  static void shoot(const View& view, int u, int v, ExactFrame& frame) {
+  static void shoot(const FacetView& view, RTCScene rays, int u, int v, Image<FacetId>& seen) {
     alignas(32) int valid[kPacket];
     alignas(32) RTCRayHit8 packet;
     PacketContext context;
@@ -200,34 +195,11 @@ class RaycastRenderer : public DepthRenderer {
       context.depth[i] = -1;
       context.item[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid, view.rays.get(), &context.base, &packet);
+    rtcIntersect8(valid, rays, &context.base, &packet);
     for (int i = 0; i < kPacket; ++i)
       if (valid[i] && packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-        refine(view, {packet.hit.instID[0][i], packet.hit.primID[i]}, u + i, v, frame);
-  }
-
-  struct Hit {
-    std::uint32_t item, triangle;
-  };
-
-  // The pixel's ray meets the triangle's plane, in double. Depth stays within that of the corners: of a triangle seen
-  // edge-on the plane alone would say nothing.
-  static void refine(const View& view, const Hit& hit, int u, int v, ExactFrame& frame) {
-    const RenderItem& item = view.scene.items[hit.item];
-    const Pose& X_CO = view.X_CO[hit.item];
-    const auto& corners = item.mesh_O->triangles[hit.triangle];
-    const Eigen::Vector3d a = X_CO * item.mesh_O->vertices[corners[0]], b = X_CO * item.mesh_O->vertices[corners[1]],
-                          c = X_CO * item.mesh_O->vertices[corners[2]];
-    Eigen::Vector3d n = (b - a).cross(c - a).stableNormalized();
-    const Eigen::Vector3d ray = view.camera.ray(u, v);
-    double facing = n.dot(ray);
-    if (facing > 0) n = -n, facing = -facing;
-    const double low = std::max(std::min({a.z(), b.z(), c.z()}), view.near);
-    const double high = std::min(std::max({a.z(), b.z(), c.z()}), view.far);
-    const double z = facing < 0 ? n.dot(a) / facing : low;
-    frame.depth(u, v) = static_cast<float>(std::max(low, std::min(z, high)));
-    frame.ids(u, v) = item.id;
-    frame.normals_C(u, v) = n.cast<float>();
+        seen(u + i, v) = {static_cast<std::int32_t>(packet.hit.instID[0][i]),
+                          static_cast<std::int32_t>(packet.hit.primID[i])};
   }
 
   int threads_;

@@ -2,36 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/check.hpp"
+#include "core/parallel.hpp"
+#include "sim/silhouette.hpp"
 
 namespace binpick {
 namespace {
 
-// The silhouette is drawn on at most this many pixels a side, and for points at least this far in front of the camera.
-constexpr int kMaxSide = 4096;
-constexpr double kNearest = 1e-3;
-
-// Columns (or rows) that a mesh covers: focal * x / z + centre over its vertices, one pixel wider on both sides.
-struct Span {
-  double low = 1e9, high = -1e9;
-  void add(double x) {
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
-  int first(int size) const { return static_cast<int>(std::floor(std::max(low, -double(kMaxSide - size) / 2))) - 1; }
-  int last(int size) const { return static_cast<int>(std::ceil(std::min(high, double(kMaxSide + size) / 2))) + 1; }
-};
+constexpr double kNearest = 1e-3;  // m
 
 int count_id(const Image<std::int32_t>& ids, std::int32_t id) {
   return static_cast<int>(std::count(ids.begin(), ids.end(), id));
 }
 
-// Pixels of one item drawn alone. The window lies on the camera's own pixel grid: only whole pixels are added to cx,
-// cy.
-int silhouette(DepthRenderer& renderer, const RenderItem& item, const PinholeCamera& camera, const Pose& X_WC) {
+// Pixels of one item drawn alone, for an item that reaches through the plane of the camera. The window lies on the
+// camera's own pixel grid: only whole pixels are added to cx, cy.
+int drawn_silhouette(DepthRenderer& renderer, const RenderItem& item, const PinholeCamera& camera, const Pose& X_WC) {
   const Pose X_CO = X_WC.inverse() * item.X_WO;
-  Span columns, rows;
+  PixelSpan columns, rows;
   double nearest = 1e9, farthest = 0;
   for (const Eigen::Vector3d& p_O : item.mesh_O->vertices) {
     Eigen::Vector3d p_C = X_CO * p_O;
@@ -60,18 +50,26 @@ int silhouette(DepthRenderer& renderer, const RenderItem& item, const PinholeCam
 }  // namespace
 
 std::vector<Visibility> part_visibility(DepthRenderer& renderer, const RenderScene& scene, const ExactFrame& frame,
-                                        const PinholeCamera& camera, const Pose& X_WC, std::size_t parts) {
+                                        const PinholeCamera& camera, const Pose& X_WC, std::size_t parts, int threads) {
   std::vector<Visibility> result(parts);
   const auto is_part = [&](std::int32_t id) { return id >= 0 && static_cast<std::size_t>(id) < parts; };
   for (const std::int32_t id : frame.ids)
     if (is_part(id)) ++result[static_cast<std::size_t>(id)].visible_pixels;
+  std::vector<const RenderItem*> items(parts, nullptr);
   for (const RenderItem& item : scene.items) {
     if (!is_part(item.id) || item.mesh_O->empty()) continue;
-    Visibility& part = result[static_cast<std::size_t>(item.id)];
-    BP_CHECK(part.silhouette_pixels == 0, "part id " << item.id << " appears twice");
-    part.silhouette_pixels = silhouette(renderer, item, camera, X_WC);
-    // The rasteriser rounds corners to 1/256 pixel; in another window a border pixel may fall the other way.
-    part.silhouette_pixels = std::max(part.silhouette_pixels, part.visible_pixels);
+    BP_CHECK(items[static_cast<std::size_t>(item.id)] == nullptr, "part id " << item.id << " appears twice");
+    items[static_cast<std::size_t>(item.id)] = &item;
+  }
+  const Pose X_CW = X_WC.inverse();
+  std::vector<std::optional<int>> counts(parts, 0);
+  parallel_for(parts, threads, [&](std::size_t i) {
+    if (items[i]) counts[i] = silhouette_pixels(*items[i]->mesh_O, X_CW * items[i]->X_WO, camera);
+  });
+  for (std::size_t i = 0; i < parts; ++i) {
+    const int count = counts[i] ? *counts[i] : drawn_silhouette(renderer, *items[i], camera, X_WC);
+    // A renderer rounds corners (OSMesa: to 1/256 pixel); a border pixel may fall the other way.
+    result[i].silhouette_pixels = std::max(count, result[i].visible_pixels);
   }
   return result;
 }

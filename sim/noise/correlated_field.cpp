@@ -3,6 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/random_field.hpp"
+#include "sim/noise/row_kernels.hpp"
+#include "sim/noise/rows.hpp"
+
 namespace binpick {
 namespace {
 
@@ -22,43 +26,37 @@ std::vector<float> half_kernel(double length) {
   return kernel;
 }
 
-// Standard normal numbers by index; each item of the stream gives two of them.
-void add_white(std::vector<float>& noise, double scale, const Rng& rng) {
-  if (!(scale > 0)) return;
-  for (std::size_t i = 0; i < noise.size(); i += 2) {
-    Rng draw = rng.at(i / 2);
-    noise[i] += static_cast<float>(scale * draw.normal());
-    if (i + 1 < noise.size()) noise[i + 1] += static_cast<float>(scale * draw.normal());
-  }
-}
-
 }  // namespace
 
 Image<float> correlated_field(int width, int height, const CorrelatedField& field, const Rng& fixed,
-                              const Rng& changing) {
+                              const Rng& changing, int threads) {
   const std::vector<float> kernel = half_kernel(field.length);
   const int radius = static_cast<int>(kernel.size()) - 1;
   const int wide = width + 2 * radius, high = height + 2 * radius;
-  std::vector<float> white(static_cast<std::size_t>(wide) * high, 0.0f);
-  add_white(white, std::sqrt(field.fixed_share), fixed);
-  add_white(white, std::sqrt(1 - field.fixed_share), changing);
-
-  Image<float> out(width, height, 0.0f);
-  std::vector<float> column_sum(wide);
-  for (int v = 0; v < height; ++v) {
-    const float* middle = white.data() + static_cast<std::size_t>(v + radius) * wide;
-    for (int x = 0; x < wide; ++x) column_sum[x] = kernel[0] * middle[x];
-    for (int k = 1; k <= radius; ++k) {
-      const float *above = middle - static_cast<std::ptrdiff_t>(k) * wide,
-                  *below = middle + static_cast<std::ptrdiff_t>(k) * wide;
-      for (int x = 0; x < wide; ++x) column_sum[x] += kernel[k] * (above[x] + below[x]);
+  const auto fixed_scale = static_cast<float>(std::sqrt(field.fixed_share));
+  const auto changing_scale = static_cast<float>(std::sqrt(1 - field.fixed_share));
+  Image<float> white(wide, high);
+  for_rows(high, threads, [&](int first, int end) {
+    std::vector<float> draws(static_cast<std::size_t>(wide));
+    for (int v = first; v < end; ++v) {
+      fill_normals(fixed, static_cast<std::uint64_t>(v), draws);
+      scale_row(&white(0, v), draws.data(), fixed_scale, wide);
+      fill_normals(changing, static_cast<std::uint64_t>(v), draws);
+      add_row(&white(0, v), draws.data(), changing_scale, wide);
     }
-    float* row = &out(0, v);
-    const float* centre = column_sum.data() + radius;
-    for (int u = 0; u < width; ++u) row[u] = kernel[0] * centre[u];
-    for (int k = 1; k <= radius; ++k)
-      for (int u = 0; u < width; ++u) row[u] += kernel[k] * (centre[u - k] + centre[u + k]);
-  }
+  });
+  Image<float> out(width, height);
+  for_rows(height, threads, [&](int first, int end) {
+    std::vector<float> sum(static_cast<std::size_t>(wide));  // of a column's neighbourhood
+    for (int v = first; v < end; ++v) {
+      scale_row(sum.data(), &white(0, v + radius), kernel[0], wide);
+      for (int k = 1; k <= radius; ++k)
+        add_pair(sum.data(), &white(0, v + radius - k), &white(0, v + radius + k), kernel[k], wide);
+      scale_row(&out(0, v), sum.data() + radius, kernel[0], width);
+      for (int k = 1; k <= radius; ++k)
+        add_pair(&out(0, v), sum.data() + radius - k, sum.data() + radius + k, kernel[k], width);
+    }
+  });
   return out;
 }
 

@@ -14,6 +14,6 @@ struct CorrelatedField {
 
 /// No border: the noise is drawn on a larger grid. A value depends only on its place, not on the order of drawing.
 Image<float> correlated_field(int width, int height, const CorrelatedField& field, const Rng& fixed,
-                              const Rng& changing);
+                              const Rng& changing, int threads = 1);
 
 }  // namespace binpick

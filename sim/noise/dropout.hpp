@@ -20,6 +20,6 @@ struct Dropout {
 void drop_returns(const StereoView& view, const Dropout& dropout, const Rng& rng, DisparityImage& image);
 
 /// Removes each pixel with the given probability.
-void drop_speckles(double probability, const Rng& rng, DisparityImage& image);
+void drop_speckles(double probability, const Rng& rng, int threads, DisparityImage& image);
 
 }  // namespace binpick

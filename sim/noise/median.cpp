@@ -4,22 +4,35 @@
 #include <array>
 #include <cmath>
 
-namespace binpick {
+#include "sim/noise/row_kernels.hpp"
+#include "sim/noise/rows.hpp"
 
-Image<float> median_3x3(const Image<float>& image) {
-  Image<float> out = image;
-  for (int v = 0; v < image.height(); ++v)
-    for (int u = 0; u < image.width(); ++u) {
-      if (std::isnan(image(u, v))) continue;
-      std::array<float, 9> values;
-      std::size_t count = 0;
-      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, image.height() - 1); ++y)
-        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, image.width() - 1); ++x)
-          if (!std::isnan(image(x, y))) values[count++] = image(x, y);
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
-      std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-      out(u, v) = *middle;
+namespace binpick {
+namespace {
+
+float median_at(const Image<float>& image, int u, int v) {
+  std::array<float, 9> values;
+  std::size_t count = 0;
+  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, image.height() - 1); ++y)
+    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, image.width() - 1); ++x)
+      if (!std::isnan(image(x, y))) values[count++] = image(x, y);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
+  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+}  // namespace
+
+Image<float> median_3x3(const Image<float>& image, int threads) {
+  const int width = image.width(), height = image.height();
+  Image<float> out(width, height, std::nanf(""));
+  for_rows(height, threads, [&](int first, int end) {
+    for (int v = first; v < end; ++v) {
+      if (v > 0 && v + 1 < height) median_row(&out(0, v), &image(0, v - 1), &image(0, v), &image(0, v + 1), width);
+      for (int u = 0; u < width; ++u)  // borders, and beside pixels without a match
+        if (std::isnan(out(u, v)) && !std::isnan(image(u, v))) out(u, v) = median_at(image, u, v);
     }
+  });
   return out;
 }
 

@@ -6,6 +6,6 @@
 namespace binpick {
 
 /// NaN stays NaN and takes no part; of an even number of values the smaller middle one is taken.
-Image<float> median_3x3(const Image<float>& image);
+Image<float> median_3x3(const Image<float>& image, int threads = 1);
 
 }  // namespace binpick

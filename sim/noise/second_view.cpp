@@ -4,10 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/noise/rows.hpp"
+
 namespace binpick {
 namespace {
 
-constexpr int kCells = 4;  // cells of the second image for each of its pixels
+constexpr int kCells = 4;       // cells of the second image for each of its pixels
+constexpr int kLeft = 1 << 16;  // px: more than any disparity
 
 // One row of both images: x = u - d is where pixel u appears in the second one.
 class RowWarp {
@@ -29,7 +32,8 @@ class RowWarp {
   }
 
  private:
-  static int cell_of(double x) { return static_cast<int>(std::floor((x + 0.5) * kCells)); }
+  // Rounds down; places far left of the image, which no cell has, only need to stay negative.
+  static int cell_of(double x) { return static_cast<int>((x + 0.5 + kLeft) * kCells) - kLeft * kCells; }
 
   // A pixel's footprint reaches half way to its neighbours on the same surface, and half a pixel at the surface's end.
   void cover(int u) {
@@ -52,12 +56,14 @@ class RowWarp {
 
 Image<std::uint8_t> hidden_from_second_view(const StereoView& view, bool same_image) {
   Image<std::uint8_t> hidden(view.camera.width, view.camera.height, 0);
-  RowWarp warp(view.camera.width);
-  for (int v = 0; v < hidden.height(); ++v) {
-    warp.load(view, v);
-    for (int u = 0; u < hidden.width(); ++u)
-      hidden(u, v) = !warp.empty(u) && ((same_image && warp.outside(u)) || warp.hidden(u));
-  }
+  for_rows(hidden.height(), view.threads, [&](int first, int end) {
+    RowWarp warp(view.camera.width);
+    for (int v = first; v < end; ++v) {
+      warp.load(view, v);
+      for (int u = 0; u < hidden.width(); ++u)
+        hidden(u, v) = !warp.empty(u) && ((same_image && warp.outside(u)) || warp.hidden(u));
+    }
+  });
   return hidden;
 }
 

@@ -57,6 +57,7 @@
 #include "sim/noise/dropout.hpp"
 #include "sim/noise/median.hpp"
 #include "sim/noise/mixed_pixels.hpp"
+#include "sim/noise/rows.hpp"
 #include "sim/noise/sampling.hpp"
 #include "sim/noise/second_view.hpp"
 #include "sim/sensors/camera_table.hpp"
@@ -66,6 +67,18 @@ namespace binpick {
 namespace {
 
 constexpr double kLargestTan2 = 32.16;  // tan^2(80 deg): beyond, the incidence factor grows no more
+
+// sin(2 pi x) to 1e-9, without libm: the nearest whole turn off, folded to a quarter, then the Taylor series.
+double sine_of_turns(double x) {
+  constexpr int kAway = 1 << 20;  // a cast rounds towards zero, hence from the positive side
+  double turn = x - (static_cast<int>(x + kAway + 0.5) - kAway);
+  if (turn > 0.25) turn = 0.5 - turn;
+  if (turn < -0.25) turn = -0.5 - turn;
+  const double t = 2 * std::numbers::pi * turn, q = t * t;
+  double series = 1;
+  for (int k = 14; k >= 2; k -= 2) series = 1 - q / (k * (k + 1)) * series;
+  return t * series;
+}
 
 struct DisparityParameters {
   double baseline = 0;
@@ -195,7 +208,7 @@ Image<std::uint8_t> DisparitySensor::hidden(const StereoView& view) const {
   Image<std::uint8_t> mask(view.camera.width, view.camera.height, 0);
   if (p_.occlusion) mask = hidden_from_second_view(view, true);
   if (p_.projector_baseline > 0) {
-    const StereoView projector{view.exact, view.camera, p_.projector_baseline};
+    const StereoView projector(view.exact, view.camera, p_.projector_baseline, view.threads);
     const Image<std::uint8_t> dark = hidden_from_second_view(projector, false);
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= dark[i];
   }
@@ -205,37 +218,42 @@ Image<std::uint8_t> DisparitySensor::hidden(const StereoView& view) const {
 void DisparitySensor::add_noise(const StereoView& view, Seed camera_seed, Seed frame_seed,
                                 DisparityImage& image) const {
   const double bias = p_.bias_mean + p_.bias_sigma * camera_seed.child("bias").rng().normal();
-  const Image<float> g = correlated_field(view.camera.width, view.camera.height, p_.field,
-                                          camera_seed.child("noise").rng(), frame_seed.child("noise").rng());
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    if (image.source[i] < 0) continue;
-    const double cosine = view.cos_incidence(static_cast<std::size_t>(image.source[i]));
-    const double cos2 = std::max(cosine * cosine, 1e-6);
-    const double s = p_.subpixel_noise * (1 + p_.incidence_gain * std::min((1 - cos2) / cos2, kLargestTan2));
-    const double d = image.disparity[i];
-    image.disparity[i] = static_cast<float>(d + bias + p_.ripple * std::sin(2 * std::numbers::pi * d) + s * g[i]);
-  }
+  const Image<float> g =
+      correlated_field(view.camera.width, view.camera.height, p_.field, camera_seed.child("noise").rng(),
+                       frame_seed.child("noise").rng(), view.threads);
+  for_rows(view.camera.height, view.threads, [&](int first, int end) {
+    for (std::size_t i = view.index(0, first); i < view.index(0, end); ++i) {
+      if (image.source[i] < 0) continue;
+      const double cosine = view.cos_incidence(static_cast<std::size_t>(image.source[i]));
+      const double cos2 = std::max(cosine * cosine, 1e-6);
+      const double s = p_.subpixel_noise * (1 + p_.incidence_gain * std::min((1 - cos2) / cos2, kLargestTan2));
+      const double d = image.disparity[i];
+      image.disparity[i] = static_cast<float>(d + bias + p_.ripple * sine_of_turns(d) + s * g[i]);
+    }
+  });
 }
 
 Image<float> DisparitySensor::to_depth(const StereoView& view, const Image<float>& disparity) const {
   Image<float> depth(disparity.width(), disparity.height(), std::nanf(""));
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    const double exact = disparity[i];
-    const double d = p_.disparity_step > 0 ? std::round(exact / p_.disparity_step) * p_.disparity_step : exact;
-    if (d > 0) depth[i] = on_grid(view.fB() / d, p_.grid);
-  }
+  for_rows(depth.height(), view.threads, [&](int first, int end) {
+    for (std::size_t i = view.index(0, first); i < view.index(0, end); ++i) {
+      const double exact = disparity[i];
+      const double d = p_.disparity_step > 0 ? std::round(exact / p_.disparity_step) * p_.disparity_step : exact;
+      if (d > 0) depth[i] = on_grid(view.fB() / d, p_.grid);
+    }
+  });
   return depth;
 }
 
 Image<float> DisparitySensor::capture(const SensorView& seen, Seed camera_seed, Seed frame_seed) const {
-  const StereoView view{seen.exact, seen.camera, p_.baseline};
+  const StereoView view(seen.exact, seen.camera, p_.baseline, seen.threads);
   DisparityImage image = jittered_samples(view, p_.lateral_jitter, hidden(view), frame_seed.child("jitter").rng());
   grow_foreground(view, p_.fattening, image);
   drop_returns(view, p_.dropout, frame_seed.child("dropout").rng(), image);
   add_noise(view, camera_seed, frame_seed, image);
-  if (p_.median) image.disparity = median_3x3(image.disparity);
+  if (p_.median) image.disparity = median_3x3(image.disparity, view.threads);
   mix_outlines(view, p_.mixed_share, frame_seed.child("mixed").rng(), image);
-  drop_speckles(p_.speckle, frame_seed.child("speckle").rng(), image);
+  drop_speckles(p_.speckle, frame_seed.child("speckle").rng(), view.threads, image);
   return to_depth(view, image.disparity);
 }
 

@@ -38,8 +38,10 @@
 #include <limits>
 #include <numbers>
 
+#include "core/random_field.hpp"
 #include "sim/noise/depth_grid.hpp"
 #include "sim/noise/disparity_image.hpp"
+#include "sim/noise/rows.hpp"
 #include "sim/sensors/camera_table.hpp"
 #include "sim/sensors/models.hpp"
 
@@ -169,20 +171,25 @@ double GaussZSensor::sampled_depth(const StereoView& view, int u, int v, Rng dra
 Image<float> GaussZSensor::capture(const SensorView& seen, Seed, Seed frame_seed) const {
   const ExactFrame& exact = seen.exact;
   // Any baseline will do: the plane of a pixel is carried over to the displaced ray in 1 / z, where it is linear.
-  const StereoView view{exact, seen.camera, 0.05};
+  const StereoView view(exact, seen.camera, 0.05, seen.threads);
   const Rng noise = frame_seed.child("gauss_z").rng(), jitter = frame_seed.child("jitter").rng();
   Image<float> depth(exact.depth.width(), exact.depth.height(), std::numeric_limits<float>::quiet_NaN());
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) {
-      const std::size_t pixel = view.index(u, v);
-      const double cosine = p_.darkest > 0 || p_.grazing > 0 ? view.cos_incidence(pixel) : 1;
-      if (exact.materials[exact.ids[pixel]].albedo * cosine < p_.darkest) continue;
-      if (p_.edge_range > 0 && depth_span_3x3(exact.depth, u, v) > p_.edge_range) continue;
-      const double z = p_.lateral_jitter > 0 ? sampled_depth(view, u, v, jitter.at(pixel)) : exact.depth[pixel];
-      double sigma = frontal_sigma(z);
-      if (p_.grazing > 0) sigma += grazing_sigma(z, cosine);
-      depth(u, v) = on_grid(z + sigma * noise.at(pixel).normal(), p_.grid);
+  for_rows(depth.height(), seen.threads, [&](int first, int end) {
+    std::vector<float> draws(static_cast<std::size_t>(depth.width()));
+    for (int v = first; v < end; ++v) {
+      fill_normals(noise, static_cast<std::uint64_t>(v), draws);
+      for (int u = 0; u < depth.width(); ++u) {
+        const std::size_t pixel = view.index(u, v);
+        const double cosine = p_.darkest > 0 || p_.grazing > 0 ? view.cos_incidence(pixel) : 1;
+        if (exact.materials[exact.ids[pixel]].albedo * cosine < p_.darkest) continue;
+        if (p_.edge_range > 0 && depth_span_3x3(exact.depth, u, v) > p_.edge_range) continue;
+        const double z = p_.lateral_jitter > 0 ? sampled_depth(view, u, v, jitter.at(pixel)) : exact.depth[pixel];
+        double sigma = frontal_sigma(z);
+        if (p_.grazing > 0) sigma += grazing_sigma(z, cosine);
+        depth(u, v) = on_grid(z + sigma * draws[static_cast<std::size_t>(u)], p_.grid);
+      }
     }
+  });
   return depth;
 }
 
