@@ -30,6 +30,26 @@ double published_sigma(const std::string& preset, double z) {
   return z * z * 0.08 / depth_camera(preset).fB();
 }
 
+constexpr char kNoiseScript[] = R"gp(
+set title "Noise of a flat wall: measured (points), published laws (lines; crosses: one stated value)"
+set label 1 "Kinect and Azure deliver whole millimetres: that alone is 0.29 mm" at graph 0.02, 0.03 font ",11"
+set logscale xy
+set xlabel "range z, m"
+set ylabel "plane-fit RMS, mm"
+set xrange [0.18:2]
+set yrange [0.01:20]
+set xtics (0.2, 0.3, 0.5, 0.7, 1, 1.5, 2)
+set key outside right top
+array light[3] = ["active_stereo d435_848", "structured_light zivid_2", "structured_light phoxi_m"]
+array same[3] = [2, 9, 10]
+array camera[10] = ["d415_1280", "d435_848", "d435_1280", "d405_848", "d405_1280", "d455_848", \
+  "kinect_v1", "azure_kinect", "zivid_2", "phoxi_m"]
+plot for [i=1:8] file using (curve(camera[i], 2)):4 with lines lt i lw 1.5 notitle, \
+  for [i=9:10] file using (curve(camera[i], 2)):4 with points lt i pt 2 ps 3 notitle, \
+  for [i=1:10] file using (curve(camera[i], 2)):3 with points lt i title camera[i], \
+  for [i=1:3] file using (curve(light[i], 2)):3 with points lt same[i] pt 6 ps 1.8 title light[i]
+)gp";
+
 }  // namespace
 
 std::string plot_noise(SensorBench& bench, const std::string& folder) {
@@ -58,25 +78,7 @@ std::string plot_noise(SensorBench& bench, const std::string& folder) {
       table.add(subject.name(), {z, 1e3 * rms, 1e3 * published_sigma(subject.preset, z)});
     }
   }
-  write_plot(folder, "noise_over_range", table, R"gp(
-set title "Noise of a flat wall: measured (points), published laws (lines; crosses: one stated value)"
-set label 1 "Kinect and Azure deliver whole millimetres: that alone is 0.29 mm" at graph 0.02, 0.03 font ",11"
-set logscale xy
-set xlabel "range z, m"
-set ylabel "plane-fit RMS, mm"
-set xrange [0.18:2]
-set yrange [0.01:20]
-set xtics (0.2, 0.3, 0.5, 0.7, 1, 1.5, 2)
-set key outside right top
-array light[3] = ["active_stereo d435_848", "structured_light zivid_2", "structured_light phoxi_m"]
-array same[3] = [2, 9, 10]
-array camera[10] = ["d415_1280", "d435_848", "d435_1280", "d405_848", "d405_1280", "d455_848", \
-  "kinect_v1", "azure_kinect", "zivid_2", "phoxi_m"]
-plot for [i=1:8] file using (curve(camera[i], 2)):4 with lines lt i lw 1.5 notitle, \
-  for [i=9:10] file using (curve(camera[i], 2)):4 with points lt i pt 2 ps 3 notitle, \
-  for [i=1:10] file using (curve(camera[i], 2)):3 with points lt i title camera[i], \
-  for [i=1:3] file using (curve(light[i], 2)):3 with points lt same[i] pt 6 ps 1.8 title light[i]
-)gp");
+  write_plot(folder, "noise_over_range", table, kNoiseScript);
   return "noise_over_range";
 }
 
