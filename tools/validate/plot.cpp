@@ -20,7 +20,7 @@ namespace {
 constexpr char kHead[] =
     "set terminal pngcairo size 1100,750 font 'DejaVu Sans,13' background rgb 'white'\n"
     "set datafile separator ','\n"
-    "set grid lw 1 dt 1 lc rgb '#dddddd'\n"
+    "set grid lt -1 lw 0.7 lc rgb '#dddddd'\n"
     "set border lc rgb '#444444'\n"
     "set key font ',11' noenhanced Left reverse\n"
     "set linetype 1 lc rgb '#1f77b4'\nset linetype 2 lc rgb '#d62728'\nset linetype 3 lc rgb '#2ca02c'\n"
