@@ -7,7 +7,7 @@
 namespace binpick {
 
 /// Diffuse (Lambert) reflectance plus one mirror-like lobe (Blinn-Phong, exponent 2 / roughness^2 - 2). Machined metal:
-/// albedo 0.25, specular 0.5, roughness 0.25 or so (untuned: no public measurement was found, physical_models A3.5).
+/// albedo 0.25, specular 0.4, roughness 0.35 or so (untuned: no public measurement was found, physical_models A3.5).
 struct Material {
   double albedo = 0.6;     ///< share of the light returned diffusely, 0 .. 1
   double specular = 0;     ///< share returned in the lobe, 0 .. 1

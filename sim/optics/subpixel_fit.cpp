@@ -12,7 +12,7 @@
 namespace binpick {
 namespace {
 
-constexpr int kLane = 8;         // a row of the window, filled up with weights of 0: no block is wider than 7, or 15
+constexpr int kLane = 8;         // pixels of a window's row that are worked on at once; its end has weights of 0
 constexpr int kMargin = 16;      // px around the image, the border repeated: windows need no test
 constexpr int kIterations = 2;   // the second moves by less than 1/50 px
 constexpr double kFarthest = 1;  // px from the matcher's result
