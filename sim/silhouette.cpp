@@ -49,7 +49,11 @@ class Mask {
     }
     double top, bottom, u, v, slope = 0;
   };
-  static int ceil_of(double x) { return static_cast<int>(std::ceil(x)); }
+  // A cast rounds towards zero, hence from the side where all numbers are positive; std::ceil is a call.
+  static int ceil_of(double x) {
+    constexpr std::int64_t kAway = std::int64_t{1} << 31;
+    return static_cast<int>(kAway - static_cast<std::int64_t>(static_cast<double>(kAway) - x));
+  }
   void cover(int row, int first, int end) {
     first = std::max(first, 0);
     end = std::min(end, width_);

@@ -16,9 +16,9 @@ float median_at(const Image<float>& image, int u, int v) {
   for (int y = std::max(v - 1, 0); y <= std::min(v + 1, image.height() - 1); ++y)
     for (int x = std::max(u - 1, 0); x <= std::min(u + 1, image.width() - 1); ++x)
       if (!std::isnan(image(x, y))) values[count++] = image(x, y);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
-  std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-  return *middle;
+  for (std::size_t i = 1; i < count; ++i)  // insertion: nine values at most
+    for (std::size_t k = i; k > 0 && values[k] < values[k - 1]; --k) std::swap(values[k], values[k - 1]);
+  return values[(count - 1) / 2];
 }
 
 }  // namespace

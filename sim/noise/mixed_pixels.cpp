@@ -26,6 +26,14 @@ float behind_outline(const StereoView& view, const Image<float>& disparity, cons
   return farthest;
 }
 
+// Some neighbour is farther by a step; most pixels end here.
+bool may_be_outline(const Image<float>& disparity, int u, int v) {
+  if (u == 0 || v == 0 || u + 1 == disparity.width() || v + 1 == disparity.height()) return true;
+  const float *here = &disparity(u, v), *above = here - disparity.width(), *below = here + disparity.width();
+  return here[-1] + kDisparityStep < *here || here[1] + kDisparityStep < *here || *above + kDisparityStep < *here ||
+         *below + kDisparityStep < *here;
+}
+
 }  // namespace
 
 void mix_outlines(const StereoView& view, double probability, const Rng& rng, DisparityImage& image) {
@@ -34,7 +42,7 @@ void mix_outlines(const StereoView& view, double probability, const Rng& rng, Di
   for_rows(view.camera.height, view.threads, [&](int first, int end) {
     for (int v = first; v < end; ++v)
       for (int u = 0; u < view.camera.width; ++u) {
-        if (image.source(u, v) < 0) continue;
+        if (image.source(u, v) < 0 || !may_be_outline(before, u, v)) continue;
         const float farther = behind_outline(view, before, image.source, u, v);
         if (std::isnan(farther)) continue;
         Rng draw = rng.at(view.index(u, v));

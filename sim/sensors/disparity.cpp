@@ -75,9 +75,8 @@ double sine_of_turns(double x) {
   if (turn > 0.25) turn = 0.5 - turn;
   if (turn < -0.25) turn = -0.5 - turn;
   const double t = 2 * std::numbers::pi * turn, q = t * t;
-  double series = 1;
-  for (int k = 14; k >= 2; k -= 2) series = 1 - q / (k * (k + 1)) * series;
-  return t * series;
+  const double tail = 1 - q * (1.0 / 110) * (1 - q * (1.0 / 156) * (1 - q * (1.0 / 210)));
+  return t * (1 - q * (1.0 / 6) * (1 - q * (1.0 / 20) * (1 - q * (1.0 / 42) * (1 - q * (1.0 / 72) * tail))));
 }
 
 struct DisparityParameters {

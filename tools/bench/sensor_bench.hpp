@@ -16,8 +16,9 @@ struct SensorBenchConfig {
 
 struct BenchRow {
   std::string name;
-  std::vector<double> frame_ms;     ///< exact frame and, for a sensor, its model
-  std::vector<double> capture_ms;   ///< the same with the visible fractions, as a trial asks for it
+  std::vector<double> frame_ms;    ///< exact frame and, for a sensor, its model
+  std::vector<double> capture_ms;  ///< the same with the visible fractions, as a trial asks for it
+  std::vector<double> cpu_ms;  ///< processor time of the latter, all threads: tells a busy machine from a slow frame
   double limit_ms = 0, aim_ms = 0;  ///< what is asked for; 0: nothing
 };
 
