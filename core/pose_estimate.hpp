@@ -19,6 +19,12 @@ struct SceneView {
   std::variant<DepthFrame, PointCloud> seen;  ///< a cloud is in C
   std::optional<BinSpec> bin;
   Pose X_CB = Pose::Identity();  ///< believed pose of the bin; meaningful only with `bin`
+  StatedNoise cloud_noise;       ///< of a cloud's points along z of C; a frame brings its own
+
+  const StatedNoise& noise() const {
+    const auto* frame = std::get_if<DepthFrame>(&seen);
+    return frame ? frame->noise : cloud_noise;
+  }
 };
 
 struct PoseEstimate {

@@ -66,7 +66,12 @@ void read_vertex(PlyValues& values, const PlyElement& element, bool normals, Poi
   if (point.cwiseAbs().maxCoeff() > kFarthest)
     throw AssetError(values.place() + ": a coordinate beyond 1 km; clouds are in metres");
   cloud.points.push_back(point);
-  if (normals) cloud.normals.push_back(normal.norm() > 1e-6 ? normal.normalized() : Eigen::Vector3d::Zero());
+  if (!normals) return;
+  const double length = normal.norm();
+  Eigen::Vector3d unit = Eigen::Vector3d::Zero();
+  if (length > 1e-6) unit = normal / length;
+  // As written by us: not a bit is changed.
+  cloud.normals.push_back(std::abs(length - 1) < 1e-6 ? normal : unit);
 }
 
 void skip_record(PlyValues& values, const PlyElement& element) {

@@ -7,9 +7,12 @@
 #include "core/image_io.hpp"
 #include "core/quantity.hpp"
 #include "core/yaml.hpp"
+#include "perception/cloud_io.hpp"
 
 namespace binpick {
 namespace {
+
+constexpr const char* kCloudFile = "cloud.ply";
 
 struct PartItem {
   PartSpec& spec;
@@ -25,12 +28,16 @@ struct PartItem {
 };
 
 void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
-  v.section_with("noise", [&](ConfigVisitor& in) {
-    in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
-    in.field("linear", noise.linear, Unit::kNone, "m per m");
-    in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
-    in.field("fattening_px", noise.fattening_px, Unit::kNone, "how far foreground grows over its outline, in pixels");
-  }, "the noise that the camera's data sheet states");
+  v.section_with(
+      "noise",
+      [&](ConfigVisitor& in) {
+        in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
+        in.field("linear", noise.linear, Unit::kNone, "m per m");
+        in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
+        in.field("fattening_px", noise.fattening_px, Unit::kNone,
+                 "how far foreground grows over its outline, in pixels");
+      },
+      "the noise that the camera's data sheet states");
 }
 
 // The seed is a 64-bit key: as text, since a YAML number here is a double or an int.
@@ -52,8 +59,9 @@ void visit_seed(ConfigVisitor& v, Seed& seed) {
 void FrameRequest::visit(ConfigVisitor& v) {
   v.section("camera", camera, "intrinsics of depth.tiff");
   visit_noise(v, noise);
-  v.list_with("parts", parts.size(), [&](std::size_t n) { parts.resize(n); },
-              [&](std::size_t i, ConfigVisitor& in) { PartItem{parts[i]}.visit(in); }, "[{part: ..}] that may be seen");
+  v.list_with(
+      "parts", parts.size(), [&](std::size_t n) { parts.resize(n); },
+      [&](std::size_t i, ConfigVisitor& in) { PartItem{parts[i]}.visit(in); }, "[{part: ..}] that may be seen");
   if (v.reading()) has_bin = v.has("bin");
   if (has_bin) {
     v.section("bin", bin, "inner size and walls of the bin, when there is one");
@@ -61,11 +69,14 @@ void FrameRequest::visit(ConfigVisitor& v) {
   }
   visit_seed(v, seed);
   if (v.reading()) estimator = nullptr;
-  v.section_with("estimator", [&](ConfigVisitor& in) {
-    in.choice("type", estimator_type, estimator_names(), "pose estimator");
-    if (!estimator) estimator = make_estimator(estimator_type);
-    estimator->visit(in);
-  }, "the pose estimator");
+  v.section_with(
+      "estimator",
+      [&](ConfigVisitor& in) {
+        in.choice("type", estimator_type, estimator_names(), "pose estimator");
+        if (!estimator) estimator = make_estimator(estimator_type);
+        estimator->visit(in);
+      },
+      "the pose estimator");
   if (!estimator) estimator = make_estimator(estimator_type);
 }
 
@@ -77,21 +88,30 @@ void FrameRequest::validate() const {
   estimator->validate();
 }
 
+static DepthFrame read_depth(const std::string& folder, const FrameRequest& request) {
+  DepthFrame depth;
+  depth.camera = request.camera;
+  depth.noise = request.noise;
+  depth.depth = read_tiff(folder + "/depth.tiff");
+  if (depth.depth.width() != depth.camera.width || depth.depth.height() != depth.camera.height)
+    throw AssetError(folder + "/depth.tiff: has " + std::to_string(depth.depth.width()) + " x " +
+                     std::to_string(depth.depth.height()) + " pixels, request.yaml says " +
+                     std::to_string(depth.camera.width) + " x " + std::to_string(depth.camera.height));
+  return depth;
+}
+
 RecordedFrame read_frame_folder(const std::string& folder) {
   RecordedFrame frame;
   read_yaml_file(folder + "/request.yaml", [&](ConfigVisitor& v) {
     frame.request.visit(v);
     frame.request.validate();
   });
-  DepthFrame depth;
-  depth.camera = frame.request.camera;
-  depth.noise = frame.request.noise;
-  depth.depth = read_tiff(folder + "/depth.tiff");
-  if (depth.depth.width() != depth.camera.width || depth.depth.height() != depth.camera.height)
-    throw AssetError(folder + "/depth.tiff: has " + std::to_string(depth.depth.width()) + " x " +
-                     std::to_string(depth.depth.height()) + " pixels, request.yaml says " +
-                     std::to_string(depth.camera.width) + " x " + std::to_string(depth.camera.height));
-  frame.view.seen = std::move(depth);
+  if (std::filesystem::exists(folder + "/" + kCloudFile)) {
+    frame.view.seen = read_cloud_ply(folder + "/" + kCloudFile);
+    frame.view.cloud_noise = frame.request.noise;
+  } else {
+    frame.view.seen = read_depth(folder, frame.request);
+  }
   if (frame.request.has_bin) frame.view.bin = frame.request.bin;
   frame.view.X_CB = frame.request.X_CB;
   return frame;
@@ -100,15 +120,19 @@ RecordedFrame read_frame_folder(const std::string& folder) {
 void write_frame_folder(const std::string& folder, const FrameRequest& request, const SceneView& view) {
   make_folder(folder);
   FrameRequest copy = request;
-  const DepthFrame& frame = std::get<DepthFrame>(view.seen);
-  copy.camera = frame.camera;
-  copy.noise = frame.noise;
+  const auto* frame = std::get_if<DepthFrame>(&view.seen);
+  if (frame) copy.camera = frame->camera;
+  copy.noise = view.noise();
   copy.has_bin = view.bin.has_value();
   if (view.bin) copy.bin = *view.bin;
   copy.X_CB = view.X_CB;
   write_file(folder + "/request.yaml",
              write_yaml([&](ConfigVisitor& v) { copy.visit(v); }, std::filesystem::absolute(folder).string()));
-  write_tiff(folder + "/depth.tiff", frame.depth);
+  if (frame) {
+    write_tiff(folder + "/depth.tiff", frame->depth);
+  } else {
+    write_cloud_ply(folder + "/" + kCloudFile, std::get<PointCloud>(view.seen), "frame C, metres");
+  }
 }
 
 std::string estimates_csv(const EstimateResult& result) {

@@ -1,5 +1,5 @@
 // A recorded frame as a folder: request.yaml (camera, parts, bin, believed bin pose, seed) and depth.tiff (float metres, NaN =
-// no return). What `binpick trial --out` writes for every pictured look, what `binpick estimate` reads, and what any real
+// no return), or instead of it cloud.ply (points in C, metres). What `binpick trial --out` writes for every pictured look, what `binpick estimate` reads, and what any real
 // camera can be brought into.
 #pragma once
 
@@ -37,7 +37,7 @@ struct RecordedFrame {
 
 /// Throws SpecError or AssetError in one line.
 RecordedFrame read_frame_folder(const std::string& folder);
-/// Throws StorageError. The view must hold a DepthFrame.
+/// Throws StorageError.
 void write_frame_folder(const std::string& folder, const FrameRequest& request, const SceneView& view);
 
 /// part,score,fit_rms,inlier_fraction,r11..r33 (row-major),tx,ty,tz of X_CP in metres; one row an estimate, best first.

@@ -49,6 +49,37 @@ PinholeCamera camera_for(const PointCloud& cloud_C) {
   return camera;
 }
 
+/// The pixel of a point; outside the image: its size.
+std::size_t pixel_of(const Scene& scene, const Eigen::Vector3d& p) {
+  const Eigen::Vector2d pixel = scene.camera.project(p);
+  const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  if (!scene.depth.contains(u, v)) return scene.depth.size();
+  return static_cast<std::size_t>(v) * scene.depth.width() + u;
+}
+
+/// Each pixel takes its nearest point, or the mean of those no farther behind it than three standard deviations: the
+/// nearest alone of several noisy ones would stand too near.
+void draw(const PointCloud& cloud, Scene& scene) {
+  Image<float> nearest = scene.depth;
+  for (const Eigen::Vector3d& p : cloud.points) {
+    const std::size_t i = pixel_of(scene, p);
+    if (i < nearest.size() && !(nearest[i] <= p.z())) nearest[i] = static_cast<float>(p.z());
+  }
+  std::vector<int> count(nearest.size(), 0);
+  for (std::size_t k = 0; k < cloud.size(); ++k) {
+    const std::size_t i = pixel_of(scene, cloud.points[k]);
+    const auto z = static_cast<float>(cloud.points[k].z());
+    if (i == nearest.size() || z > nearest[i] + 3 * scene.sigma(nearest[i])) continue;
+    Eigen::Vector3f n = cloud.normals[k].cast<float>();
+    if (n.dot(cloud.points[k].cast<float>()) > 0) n = -n;
+    const float weight = 1.0f / static_cast<float>(++count[i]);
+    scene.depth[i] = count[i] == 1 ? z : scene.depth[i] + weight * (z - scene.depth[i]);
+    scene.normals[i] += weight * (n - scene.normals[i]);
+  }
+  for (Eigen::Vector3f& n : scene.normals)
+    n = n.norm() > 0.1f ? Eigen::Vector3f(n.normalized()) : Eigen::Vector3f::Zero();
+}
+
 }  // namespace
 
 void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scene& scene) {
@@ -62,16 +93,7 @@ void organise_cloud(const PointCloud& cloud_C, const NormalsConfig& config, Scen
   scene.camera = camera_for(cloud);
   scene.depth = Image<float>(scene.camera.width, scene.camera.height, kUnknown);
   scene.normals = Image<Eigen::Vector3f>(scene.camera.width, scene.camera.height, Eigen::Vector3f::Zero());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector2d pixel = scene.camera.project(cloud.points[i]);
-    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-    const float z = static_cast<float>(cloud.points[i].z());
-    if (!scene.depth.contains(u, v) || scene.depth(u, v) <= z) continue;
-    scene.depth(u, v) = z;
-    Eigen::Vector3f n = cloud.normals[i].cast<float>();
-    if (n.dot(cloud.points[i].cast<float>()) > 0) n = -n;
-    scene.normals(u, v) = n;
-  }
+  draw(cloud, scene);
 }
 
 }  // namespace binpick

@@ -1,5 +1,6 @@
-// An unordered cloud as the image of a made-up pinhole camera at the origin of C: about one point a pixel, the nearest
-// point wins. Where the cloud has no normals they come from PCL.
+// An unordered cloud as the image of a made-up pinhole camera at the origin of C: about one point a pixel; the nearest
+// point wins, averaged with those behind it that the stated noise cannot tell from it. Where the cloud has no normals
+// they come from PCL.
 #pragma once
 
 #include "perception/normals.hpp"

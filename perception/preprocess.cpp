@@ -84,10 +84,10 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   Scene scene;
   scene.bin = view.bin;
   scene.X_CB = view.X_CB;
+  scene.noise = view.noise();
   if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
     scene.camera = frame->camera;
     scene.depth = frame->depth;
-    scene.noise = frame->noise;
     scene.normals = Image<Eigen::Vector3f>(frame->depth.width(), frame->depth.height(), Eigen::Vector3f::Zero());
   } else {
     organise_cloud(std::get<PointCloud>(view.seen), normals, scene);

@@ -117,15 +117,16 @@ ObstacleMap perceived_heap(const SceneView& view, const Pose& X_WC) {
   std::vector<Voxel> voxels;
   for (const Eigen::Vector3d& p_C : cloud_C.points) {
     const Eigen::Vector3d p_W = X_WC * p_C;
-    const double skin = kSkin + (frame ? 3 * std::get<DepthFrame>(view.seen).noise.sigma(p_C.z()) : 0);
+    const double skin = kSkin + 3 * view.noise().sigma(p_C.z());
     if (view.bin ? !in_bin(*view.bin, X_BC * p_C, skin) : p_W.z() < skin) continue;
     const Eigen::Vector3d at = p_W / kVoxel;
     voxels.push_back({{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
                        static_cast<int>(std::floor(at.z()))},
                       p_W});
   }
-  const std::vector<Eigen::Vector3d> points = thinned(voxels, frame ? 3 : 1);
-  return ObstacleMap(frame ? without_loners(points) : points);
+  const bool noisy = frame || view.noise().sigma(1.0) > 0;  // not a cloud that somebody has cleaned
+  const std::vector<Eigen::Vector3d> points = thinned(voxels, noisy ? 3 : 1);
+  return ObstacleMap(noisy ? without_loners(points) : points);
 }
 
 }  // namespace binpick

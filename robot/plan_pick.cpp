@@ -21,10 +21,7 @@ constexpr double kCare = 0.5;  // share of the acceleration for a part on one cu
 
 constexpr double kRobotMargin = 0.025;  // m: seen points this near to arm or tool are the robot itself
 
-double own_tolerance(const SceneView& view) {
-  const auto* frame = std::get_if<DepthFrame>(&view.seen);
-  return kOwnTolerance + (frame ? 3 * frame->noise.sigma(0.6) : 0);
-}
+double own_tolerance(const SceneView& view) { return kOwnTolerance + 3 * view.noise().sigma(0.6); }
 
 void mark_failed(std::vector<Target>& targets, std::span<const Part> parts, std::span<const Eigen::Vector3d> failed_W) {
   for (Target& target : targets) {

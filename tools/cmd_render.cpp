@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "perception/cloud_io.hpp"
 #include "sim/grey_image.hpp"
 #include "tools/commands.hpp"
 #include "trials/observation.hpp"
@@ -34,8 +35,11 @@ int run(const Options& options) {
   const bool settled = heap.settled && heap.escaped.empty();
   if (!settled) std::cerr << "note: this heap is not at rest inside its bin; a trial would end as Unsettled\n";
   const Observation seen = observe(scenario, cell_world, context, Seed{options.seed}, 0);
-  write_render_folder(options.out, scenario, {context.hash, options.seed, settled}, seen.captures.front(), cell_world,
-                      *context.renderer);
+  for (std::size_t k = 0; k < seen.captures.size(); ++k)
+    write_render_folder(options.out + (k == 0 ? "" : "/camera_" + std::to_string(k)), scenario,
+                        {context.hash, options.seed, settled}, seen.captures[k], cell_world, *context.renderer);
+  if (const auto* cloud_C = std::get_if<PointCloud>(&seen.view.seen))
+    write_cloud_ply(options.out + "/fused.ply", *cloud_C, "frame C of the first camera, metres; all cameras' points");
   if (options.grey) write_grey(options.out + "/grey.png", scenario, cell_world, *context.renderer, Seed{options.seed});
   std::cout << options.out << std::endl;
   if (!std::cout) throw StorageError("standard output: cannot write");

@@ -1,5 +1,8 @@
 #include "trials/observation.hpp"
 
+#include "core/hash.hpp"
+#include "perception/fuse_frames.hpp"
+
 namespace binpick {
 namespace {
 
@@ -11,18 +14,29 @@ std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context,
   return items;
 }
 
-// What was true when the frame was taken; instances in the tray or on the table are not part of the question.
-GroundTruth truth_of(const CellWorld& cell_world, const Capture& capture, const Pose& X_WC) {
+// What was true when the frames were taken; instances in the tray or on the table are not part of the question. An
+// instance counts as visible as it is to the camera that sees it best.
+GroundTruth truth_of(const CellWorld& cell_world, const std::vector<Capture>& captures, const Pose& X_WC) {
   GroundTruth truth;
   truth.X_WC = X_WC;
   const DropResult& heap = cell_world.heap();
   for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
     if (!cell_world.in_bin(i)) continue;
-    const Visibility& visibility = capture.visibility[i];
+    Visibility best = captures.front().visibility[i];
+    for (const Capture& capture : captures)
+      if (capture.visibility[i].fraction() > best.fraction()) best = capture.visibility[i];
     truth.instances.push_back(
-        {heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), visibility.fraction(), visibility.visible_pixels});
+        {heap.parts[i], i, cell_world.world().pose(heap.bodies[i]), best.fraction(), best.visible_pixels});
   }
   return truth;
+}
+
+/// One camera: its frame's hash. Several: over all of them, in order.
+std::uint64_t hash_of(const std::vector<DepthFrame>& frames) {
+  if (frames.size() == 1) return frame_hash(frames.front());
+  Hasher hasher;
+  for (const DepthFrame& frame : frames) hasher.add(frame_hash(frame)).add(frame.X_WC);
+  return hasher.value();
 }
 
 }  // namespace
@@ -36,19 +50,29 @@ DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_
 }
 
 Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick) {
-  const Pose X_WC = s.cell.camera_pose(cell_world.joints());
+  const RenderScene scene = cell_world.render_scene();
   Observation seen;
-  seen.captures.push_back(capture_depth(*context.renderer, *s.sensor, cell_world.render_scene(),
-                                        cell_world.heap().bodies.size(), s.cell.camera.intrinsics, X_WC, X_WC,
-                                        trial_seed.child("camera"),
-                                        trial_seed.child("sensor", static_cast<std::uint64_t>(pick))));
-  const Capture& capture = seen.captures.front();
-  seen.frame_hash = frame_hash(capture.frame);
-  seen.X_WC_believed = capture.frame.X_WC;
-  seen.truth = truth_of(cell_world, capture, X_WC);
-  seen.view.seen = capture.frame;
+  std::vector<DepthFrame> frames;
+  for (std::size_t k = 0; k < s.cell.camera_count(); ++k) {
+    const Pose X_WC = s.cell.camera_pose(cell_world.joints(), k);
+    Seed frame_seed = trial_seed.child("sensor", static_cast<std::uint64_t>(pick));
+    if (k > 0) frame_seed = frame_seed.child("camera", k);
+    seen.captures.push_back(capture_depth(*context.renderer, *s.sensor, scene, cell_world.heap().bodies.size(),
+                                          s.cell.camera_at(k).intrinsics, X_WC, X_WC, trial_seed.child("camera", k),
+                                          frame_seed));
+    frames.push_back(seen.captures.back().frame);
+  }
+  seen.frame_hash = hash_of(frames);
+  seen.X_WC_believed = frames.front().X_WC;
+  seen.truth = truth_of(cell_world, seen.captures, s.cell.camera_pose(cell_world.joints()));
+  if (frames.size() == 1) {
+    seen.view.seen = frames.front();
+  } else {
+    seen.view.seen = fuse_frames(frames, {}, KnownBin{s.cell.bin, s.cell.X_WB});
+    seen.view.cloud_noise = frames.front().noise;
+  }
   seen.view.bin = s.cell.bin;
-  seen.view.X_CB = capture.frame.X_WC.inverse() * s.cell.X_WB;
+  seen.view.X_CB = seen.X_WC_believed.inverse() * s.cell.X_WB;
   return seen;
 }
 
