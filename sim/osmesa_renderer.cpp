@@ -18,21 +18,24 @@ namespace {
 // GL samples pixel (u, v) at window (u + 1/2, v + 1/2); PinholeCamera has its centre at (u, v). Image row v is GL row
 // v, so the picture is upside down for GL and needs no flip on reading.
 constexpr const char* kVertexShader = R"(#version 330 core
-layout(location = 0) in vec3 p_O;
+layout(location = 0) in vec4 p_O;  // w: number of the triangle that ends here
 uniform mat4 X_CO;
 uniform vec2 scale;    // 2 f / size
 uniform vec2 shift;    // 2 (c + 1/2) / size - 1
 uniform vec2 depth;    // (far + near) / (far - near), -2 far near / (far - near)
+flat out float triangle;
 void main() {
-  vec3 p_C = (X_CO * vec4(p_O, 1.0)).xyz;
+  triangle = p_O.w;
+  vec3 p_C = (X_CO * vec4(p_O.xyz, 1.0)).xyz;
   gl_Position = vec4(scale * p_C.xy + shift * p_C.z, depth.x * p_C.z + depth.y, p_C.z);
 }
 )";
 
 constexpr const char* kFragmentShader = R"(#version 330 core
 uniform int item;
+flat in float triangle;
 layout(location = 0) out ivec2 seen;
-void main() { seen = ivec2(item, gl_PrimitiveID); }
+void main() { seen = ivec2(item, int(triangle)); }
 )";
 
 // The framebuffer: grows to the largest image asked for; smaller images use its corner. It dies with the context, so
