@@ -36,7 +36,7 @@ inline Part part_from(const std::string& name, const TriangleMesh& mesh, const S
   part.name = name;
   part.mesh_P = part.envelope_P = mesh;
   part.density = 2700;
-  part.symmetry = make_symmetry(symmetry);
+  if (symmetry.type != "auto") part.symmetry = make_symmetry(symmetry);  // an example that states none has none
   part.diameter = mesh_diameter(mesh);
   part.mass = mass_properties(mesh, part.density);
   part.box_center_P = bounding_box(mesh).center();
