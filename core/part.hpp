@@ -42,7 +42,7 @@ struct PartSpec {
   double friction = 0.4;
   double restitution = 0.1;
   Material surface;
-  SymmetrySpec symmetry;
+  SymmetrySpec symmetry{"auto"};  ///< found from the envelope unless stated
 
   void visit(ConfigVisitor& v);
   void validate() const;

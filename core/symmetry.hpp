@@ -33,7 +33,7 @@ struct Symmetry {
 /// part.yaml: {type: auto | none | cyclic | dihedral | revolution | sphere, axis: [0,0,1], point: [0,0,0], order: 2,
 /// flip: true}. `auto` is found from the envelope (core/symmetry_detection).
 struct SymmetrySpec {
-  std::string type = "auto";
+  std::string type = "none";
   double tolerance = 0.01;  ///< auto: how far a turned surface may lie from itself, as a share of the diameter
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d perpendicular = Eigen::Vector3d::UnitX();  ///< dihedral: axis of one of the half turns
