@@ -26,13 +26,15 @@
 // | ratio            | 10      | same    |      | 1, 10 and 100 periods: 13 px each in the camera (chosen)
 // | contrast         | 0.9     | same    |      | modulation of the projected cosines (untuned)
 // | ambient          | 0.1     | same    |      | irradiance; white light of the projector has 1 at 1 m (untuned)
-// | exposure         | 0.75    | same    |      | share of the well that a white wall fills at working distance
-// (chosen) | blur             | 0.1     | same    |      | weight of each neighbour: a lens of 0.45 px (untuned) |
-// full_well        | 52000   | same    | e    | four binned pixels; set by the stated sigma of the Zivid | read_noise
-// | 10      | same    | e    | standard deviation (untuned) | bits             | 12      | same    |      | of the
-// digitiser | speckle          | 0       | 0.031   |      | noise of laser light, share; set by the stated sigma of the
-// PhoXi | modulation       | 0.01    | same    |      | least amplitude of a cosine, share of the well (untuned) |
-// outlier          | 5 mm    | same    | m    | a pixel needs three neighbours nearer than this (untuned); 0: no test
+// | exposure         | 0.75    | same    |      | share of the well a white wall fills at working distance
+// | exposures        | 3       | same    |      | each a quarter of the one before, while a pixel saturates
+// | blur             | 0.1     | same    |      | weight of each neighbour: a lens of 0.45 px (untuned)
+// | full_well        | 52000   | same    | e    | four binned pixels; set by the stated sigma of the Zivid
+// | read_noise       | 10      | same    | e    | standard deviation (untuned)
+// | bits             | 12      | same    |      | of the digitiser
+// | speckle          | 0       | 0.031   |      | share; set by the stated sigma of the PhoXi
+// | modulation       | 0.01    | same    |      | least amplitude of a cosine, share of the well (untuned)
+// | outlier          | 5 mm    | same    | m    | a pixel needs three neighbours nearer than this; 0: no test
 // | interreflection  | false   | same    |      | light by way of one other surface
 // | stated_noise     | 0.017   | 0.0735  | px   | what the stated sigma amounts to (A2 [R]); not used in drawing
 // | depth_unit       | 0.01 mm | same    | m    | 0 for none (chosen)
@@ -40,10 +42,10 @@
 // | z_max            | 1.5 m   | same    | m    | A2
 //
 // What it cannot do: real devices choose exposures for the scene, filter and fill by rules that are not published.
-// Stripes are ideal cosines: no defocus of the projector, no
-// gamma, no sampling of its mirrors. Interreflection is a coarse gather (stripe_light.hpp) without shadows or lobes:
-// mirror images of stripes, which real polished concave corners show, do not exist here. One lobe stands for all metal.
-// Nothing moves between the shots, and no bias of calibration or temperature is drawn.
+// Stripes are ideal cosines: no defocus of the projector, no gamma, no sampling of its mirrors. Interreflection is a
+// coarse gather (stripe_light.hpp) without shadows or lobes: mirror images of stripes, which real polished concave
+// corners show, do not exist here. One lobe stands for all metal. Nothing moves between the shots, and no bias of
+// calibration or temperature is drawn.
 
 #include <algorithm>
 #include <cmath>
