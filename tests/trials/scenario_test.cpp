@@ -32,8 +32,8 @@ TEST_P(ScenarioFiles, TheExpandedFileReplays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioFiles,
-                         testing::Values("bearing_bin.yaml", "bearing_bin_oracle.yaml", "bracket_bin.yaml",
-                                         "tee_bin.yaml"));
+                         testing::Values("bearing_bin.yaml", "bearing_bin_matt.yaml", "bearing_bin_oracle.yaml",
+                                         "bearing_bin_two_cameras.yaml", "bracket_bin.yaml", "tee_bin.yaml"));
 
 TEST(Scenario, SensorOverrideIsTheSensorThatTheFileWouldName) {
   Scenario scenario = read_scenario(kScenes + "bearing_bin.yaml", {"disparity:d415_1280"});
