@@ -9,6 +9,7 @@
 #include "core/yaml.hpp"
 #include "perception/cloud_io.hpp"
 #include "perception/fuse_frames.hpp"
+#include "sim/heap_quality.hpp"
 #include "trials/artifacts.hpp"
 
 namespace binpick {
@@ -26,6 +27,33 @@ struct LegendEntry {
   }
 };
 
+// A figure that cannot be told (no part in view) is left out.
+struct QualitySection {
+  HeapQuality parts, rest;
+  double shadow = 0;
+  static void visit_one(ConfigVisitor& v, const char* key, HeapQuality& quality) {
+    if (quality.pixels == 0) return;
+    v.section_with(
+        key,
+        [&](ConfigVisitor& in) {
+          in.field("fill", quality.fill, Unit::kNone, "share of its pixels with a return");
+          if (!(quality.fill > 0)) return;
+          in.field("bias", quality.bias, Unit::kLength, "median of the error");
+          in.field("sigma", quality.sigma, Unit::kLength, "robust standard deviation of the error");
+          in.field("inverse_depth_noise", quality.inverse_depth_noise, Unit::kNone,
+                   "1/m, the same of 1/z; times f B it is the subpixel noise");
+          in.field("gross", quality.gross, Unit::kNone, "share of the returns off by more than 5 mm");
+        },
+        "errors against the exact frame");
+  }
+  void visit(ConfigVisitor& v) {
+    visit_one(v, "parts", parts);
+    visit_one(v, "cell", rest);
+    if (std::isfinite(shadow))
+      v.field("shadow", shadow, Unit::kNone, "px lost on the left of steps of 100 mm and more, median");
+  }
+};
+
 struct RenderFile {
   std::string scenario, scenario_hash, seed, sensor, frame_hash;
   bool settled = true;
@@ -33,6 +61,7 @@ struct RenderFile {
   Pose X_WC = Pose::Identity(), X_CB = Pose::Identity();
   double step = 1e-4, returns = 0;
   StatedNoise noise;
+  QualitySection quality;
   std::vector<LegendEntry> legend;
   void visit(ConfigVisitor& v) {
     v.field("scenario", scenario, "name of the scene");
@@ -54,6 +83,7 @@ struct RenderFile {
           in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2");
         },
         "three of it end the colours of noise.png; 1 mm where none is stated");
+    v.section("quality", quality, "depth against the exact frame");
     v.list("legend", legend, "values of ids.png");
   }
 };
@@ -134,6 +164,8 @@ void write_render_folder(const std::string& folder, const Scenario& scenario, co
   file.step = depth_png_step(frame.depth);
   file.noise = frame.noise;
   file.returns = share_of_returns(frame.depth);
+  file.quality = {heap_quality(frame.depth, capture.exact, true), heap_quality(frame.depth, capture.exact, false),
+                  shadow_width(frame.depth, capture.exact)};
   file.legend = legend(capture, cell_world);
   make_folder(folder);
   write_png16(folder + "/depth_mm.png", depth_counts(frame.depth, file.step));
