@@ -13,4 +13,9 @@ float on_grid(double z, const DepthGrid& grid) {
   return inside ? delivered : std::numeric_limits<float>::quiet_NaN();
 }
 
+float depth_of_disparity(double disparity, double step, double fB, const DepthGrid& grid) {
+  const double d = step > 0 ? std::round(disparity / step) * step : disparity;
+  return d > 0 ? on_grid(fB / d, grid) : std::numeric_limits<float>::quiet_NaN();
+}
+
 }  // namespace binpick

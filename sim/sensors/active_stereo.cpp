@@ -214,12 +214,9 @@ Image<float> ActiveStereoSensor::radiance(const ImagerView& imager, const Projec
 }
 
 Image<float> ActiveStereoSensor::to_depth(const Image<float>& disparity, double fB) const {
-  Image<float> depth(disparity.width(), disparity.height(), std::nanf(""));
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    const double exact = disparity[i];
-    const double d = p_.disparity_step > 0 ? std::round(exact / p_.disparity_step) * p_.disparity_step : exact;
-    if (d > 0) depth[i] = on_grid(fB / d, p_.grid);
-  }
+  Image<float> depth(disparity.width(), disparity.height());
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    depth[i] = depth_of_disparity(disparity[i], p_.disparity_step, fB, p_.grid);
   return depth;
 }
 

@@ -233,13 +233,10 @@ void DisparitySensor::add_noise(const StereoView& view, Seed camera_seed, Seed f
 }
 
 Image<float> DisparitySensor::to_depth(const StereoView& view, const Image<float>& disparity) const {
-  Image<float> depth(disparity.width(), disparity.height(), std::nanf(""));
+  Image<float> depth(disparity.width(), disparity.height());
   for_rows(depth.height(), view.threads, [&](int first, int end) {
-    for (std::size_t i = view.index(0, first); i < view.index(0, end); ++i) {
-      const double exact = disparity[i];
-      const double d = p_.disparity_step > 0 ? std::round(exact / p_.disparity_step) * p_.disparity_step : exact;
-      if (d > 0) depth[i] = on_grid(view.fB() / d, p_.grid);
-    }
+    for (std::size_t i = view.index(0, first); i < view.index(0, end); ++i)
+      depth[i] = depth_of_disparity(disparity[i], p_.disparity_step, view.fB(), p_.grid);
   });
   return depth;
 }
