@@ -20,6 +20,7 @@ struct SceneView {
   std::optional<BinSpec> bin;
   Pose X_CB = Pose::Identity();  ///< believed pose of the bin; meaningful only with `bin`
   StatedNoise cloud_noise;       ///< of a cloud's points along z of C; a frame brings its own
+  int threads = 1;               ///< that the estimator may use; its answer does not depend on it
 
   const StatedNoise& noise() const {
     const auto* frame = std::get_if<DepthFrame>(&seen);
@@ -28,11 +29,12 @@ struct SceneView {
 };
 
 struct PoseEstimate {
-  std::size_t part = 0;          ///< index into the parts given to prepare()
+  std::size_t part = 0;  ///< index into the parts given to prepare()
   Pose X_CP = Pose::Identity();
-  double score = 0;              ///< 0 .. 1, larger is better
-  double fit_rms = 0;            ///< m, RMS distance of explained scene points from the model's surface
-  double inlier_fraction = 0;    ///< explained / visible model points
+  double score = 0;                        ///< 0 .. 1, larger is better
+  bool ambiguous = false;                  ///< another pose of the part looks the same from here (beyond its symmetry)
+  double fit_rms = 0;                      ///< m, RMS distance of explained scene points from the model's surface
+  double inlier_fraction = 0;              ///< explained / visible model points
   Matrix6d covariance = Matrix6d::Zero();  ///< of log_se3(X_CP^-1 X_CP_true) twists: translation m, rotation rad, in P
 };
 
@@ -51,7 +53,7 @@ struct EstimateResult {
   EstimateStatus status = EstimateStatus::kNothingFound;
   std::vector<PoseEstimate> estimates;  ///< best first
   StageTimes wall;
-  std::string message;  ///< why it failed, when it did
+  std::string message;  ///< why it failed or found nothing, where that is known
 };
 
 }  // namespace binpick

@@ -23,7 +23,7 @@ struct FrameRequest {
   BinSpec bin;
   Pose X_CB = Pose::Identity();  ///< believed pose of the bin in the camera frame
   Seed seed;
-  std::string estimator_type = "paper_ppf";
+  std::string estimator_type = "ppf";
   std::shared_ptr<PoseEstimator> estimator;  ///< made while visiting, not prepared
 
   void visit(ConfigVisitor& v);

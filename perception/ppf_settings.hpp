@@ -1,4 +1,4 @@
-// Every parameter of the paper's pipeline (type: paper_ppf), one section a stage.
+// Every parameter of the pipeline of `type: ppf` and `type: paper_ppf`, one section a stage.
 #pragma once
 
 #include "core/config.hpp"
@@ -18,6 +18,7 @@ struct SearchConfig {
   int refined = 150;              // of those, refined coarsely
   int regional = 10;              // of those, at most so many whose centres lie in one region of half a diameter
   int rounds = 2;                 // the second one looks at what the first left unexplained
+  int enough = 0;                 // accepted poses after which the search stops; 0: all that can be found
   int finished = 50;              // of those, refined finely with the silhouette
   double cluster_distance = 0.1;  // of the diameter
   double cluster_angle = 0.4;     // rad
@@ -28,6 +29,7 @@ struct SearchConfig {
     v.field("refined", refined, "of those, refined coarsely");
     v.field("regional", regional, "of those, at most so many in one region of half a diameter");
     v.field("rounds", rounds, "searches; each further one looks at what is still unexplained");
+    v.field("enough", enough, "poses that are enough: the search stops early; 0: all that can be found");
     v.field("finished", finished, "of those, refined finely");
     v.field("cluster_distance", cluster_distance, Unit::kNone, "poses nearer than this are one, of the diameter");
     v.field("cluster_angle", cluster_angle, Unit::kAngle, "and turned by less than this");
@@ -36,6 +38,7 @@ struct SearchConfig {
   void validate() const {
     if (clusters < 1 || refined < 1 || regional < 1 || finished < 1 || rounds < 1)
       throw SpecError("search.clusters, refined, regional, finished, rounds: must be at least 1");
+    if (enough < 0) throw SpecError("search.enough: must not be negative");
     if (!(cluster_distance > 0 && cluster_distance <= 1))
       throw SpecError("search.cluster_distance: must lie between 0 and 1");
     if (!(cluster_angle > 0 && cluster_angle <= 3.2))

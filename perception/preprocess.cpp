@@ -85,6 +85,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   scene.bin = view.bin;
   scene.X_CB = view.X_CB;
   scene.noise = view.noise();
+  scene.threads = view.threads;
   if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
     scene.camera = frame->camera;
     scene.depth = frame->depth;

@@ -4,10 +4,13 @@
 
 namespace binpick {
 
+std::unique_ptr<PoseEstimator> make_ppf_estimator();
 std::unique_ptr<PoseEstimator> make_paper_ppf_estimator();
 
 const std::vector<EstimatorEntry>& estimator_registry() {
   static const std::vector<EstimatorEntry> entries = {
+      {"ppf", "point pair features of surfaces and edges, verified by drawing, refined on what is visible",
+       make_ppf_estimator},
       {"paper_ppf", "the paper's pipeline: point pair features of the CAD, Hough voting, verification, ICP",
        make_paper_ppf_estimator},
   };

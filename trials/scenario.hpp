@@ -46,7 +46,7 @@ struct Scenario {
   std::string renderer = "osmesa";  ///< what draws the exact frames: a name of renderer_names()
   std::string sensor_type = "disparity";
   std::shared_ptr<SensorModel> sensor;
-  std::string estimator_type = "paper_ppf";  ///< a name of the estimator registry, or `oracle`
+  std::string estimator_type = "ppf";  ///< a name of the estimator registry, or `oracle`
   std::shared_ptr<PoseEstimator> estimator;  ///< not prepared; null for the oracle
   OracleConfig oracle;
   PlanningConfig planning;

@@ -1,0 +1,124 @@
+#include "perception/ppf_pipeline.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <numbers>
+
+#include "core/check.hpp"
+#include "perception/part_search.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kRim = 2;  // px about an explained pixel that count as explained, too
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// A turn that changes nothing cannot be known: uniform over a whole turn, about the symmetry's axis (twist in P).
+Matrix6d unknowable(const Symmetry& symmetry) {
+  Matrix6d out = Matrix6d::Zero();
+  const auto add = [&](const Eigen::Vector3d& point_P, const Eigen::Vector3d& direction_P) {
+    Vector6d twist;
+    twist << point_P.cross(direction_P), direction_P;
+    out += std::numbers::pi * std::numbers::pi / 3 * twist * twist.transpose();
+  };
+  if (symmetry.axis) add(symmetry.axis->point_P, symmetry.axis->direction_P.normalized());
+  for (int k = 0; k < 3 && symmetry.center_P; ++k) add(*symmetry.center_P, Eigen::Vector3d::Unit(k));
+  return out;
+}
+
+PoseEstimate to_estimate(const Candidate& c, const Symmetry& symmetry) {
+  PoseEstimate e;
+  e.part = c.part;
+  e.X_CP = c.fit.X_CP;
+  e.score = std::clamp(c.check.score(), 0.0, 1.0);
+  e.fit_rms = c.fit.rms;
+  const int judged = c.check.inliers + c.check.through + c.check.off + c.check.unknown;
+  e.inlier_fraction = judged > 0 ? static_cast<double>(c.check.inliers) / judged : 0;
+  e.covariance = c.fit.covariance + unknowable(symmetry);
+  return e;
+}
+
+/// The scene without the pixels that the poses explain.
+Scene unexplained(const Scene& scene, const std::vector<Candidate>& standing) {
+  Scene rest = scene;
+  const int width = scene.depth.width();
+  for (const Candidate& c : standing)
+    for (const std::uint32_t i : c.check.explained) {
+      const int u = static_cast<int>(i) % width, v = static_cast<int>(i) / width;
+      for (int b = -kRim; b <= kRim; ++b)
+        for (int a = -kRim; a <= kRim; ++a)
+          if (rest.wanted.contains(u + a, v + b)) rest.wanted(u + a, v + b) = 0;
+    }
+  return rest;
+}
+
+}  // namespace
+
+/// One search for every kind of part.
+std::vector<Candidate> PpfEstimator::search(const Scene& scene, StageTimes& wall) const {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const PreparedPart& part = parts_[i];
+    Stopwatch stage;
+    const ScenePoints points = scene_points(scene, part, settings_);
+    wall.preprocess += stage.lap();
+    std::vector<PoseHypothesis> poses = voted_poses(points, part, settings_);
+    wall.voting += stage.lap();
+    poses = verified_poses(scene, part, poses, settings_);
+    wall.verification += stage.lap();
+    for (Candidate& c : refined_poses(scene, part, poses, settings_)) {
+      c.part = i;
+      candidates.push_back(std::move(c));
+    }
+    wall.icp += stage.lap();
+  }
+  return candidates;
+}
+
+void PpfEstimator::prepare(std::span<const Part> parts) {
+  parts_.clear();
+  for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_));
+}
+
+EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const {
+  BP_CHECK(!parts_.empty(), "prepare() comes first");
+  EstimateResult result;
+  Stopwatch total, stage;
+  double thinnest = parts_.front().thinnest;
+  std::vector<const SurfaceModel*> models;
+  for (const PreparedPart& p : parts_) {
+    thinnest = std::min(thinnest, p.thinnest);
+    models.push_back(&p.surface);
+  }
+  const Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest);
+  result.wall.preprocess = stage.lap();
+  std::vector<Candidate> standing;
+  for (int round = 0; round < settings_.search.rounds; ++round) {
+    const std::size_t before = standing.size();
+    const Scene rest = unexplained(scene, standing);
+    for (Candidate& c : search(rest, result.wall)) standing.push_back(std::move(c));
+    stage.lap();
+    standing = resolve_conflicts(std::move(standing), models, scene, settings_.accept);
+    result.wall.verification += stage.lap();
+    if (standing.size() == before) break;  // nothing new to look past
+  }
+  for (const Candidate& c : standing) result.estimates.push_back(to_estimate(c, parts_[c.part].symmetry));
+  result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
+  result.wall.total = total.lap();
+  return result;
+}
+
+}  // namespace binpick

@@ -1,0 +1,32 @@
+// The pipeline behind `type: ppf` and `type: paper_ppf`: one order of stages, two sets of defaults.
+//   scene     crop, floor and walls, normals, voxel grid                   preprocess
+//   votes     pairs of surface points and of oriented edge points          part_search (pair_table, voting, clustering)
+//   check     voxel grid, then along the rays                              part_search (hypothesis_check)
+//   refine    ICP on the visible points, with the silhouette               part_search (icp, view_check)
+//   settle    no two poses may claim the same place                        view_check
+// and a second search looks at what is still unexplained. Frame C, metres. The answer is a function of view and
+// settings alone: neither the seed nor the number of threads changes it.
+#pragma once
+
+#include "perception/part_search.hpp"
+#include "perception/pose_estimator.hpp"
+
+namespace binpick {
+
+class PpfEstimator : public PoseEstimator {
+ public:
+  explicit PpfEstimator(PpfSettings defaults) : settings_(std::move(defaults)) {}
+  void visit(ConfigVisitor& v) override { settings_.visit(v); }
+  void validate() const override { settings_.validate(); }
+  void prepare(std::span<const Part> parts) override;
+  EstimateResult estimate(const SceneView& view, Seed seed) const override;
+
+  const std::vector<PreparedPart>& prepared() const { return parts_; }
+
+ private:
+  std::vector<Candidate> search(const Scene& scene, StageTimes& wall) const;
+  PpfSettings settings_;
+  std::vector<PreparedPart> parts_;
+};
+
+}  // namespace binpick
