@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 namespace binpick {
 
@@ -49,5 +50,48 @@ constexpr double kThickness = 16;
 constexpr double kBar = 20;   ///< y
 constexpr double kStem = 20;  ///< x
 }  // namespace tee
+
+/// Hexagon bolt M24 x 80. Axis z, origin under the head in the plane that bears on the work, shank towards +z. The
+/// thread is drawn as a plain cylinder of the major diameter. Symmetry: sixths of a turn about z.
+namespace bolt {
+constexpr double kThread = 24;  ///< diameter of the shank
+constexpr double kLength = 80;  ///< under the head
+constexpr double kAcrossFlats = 36;
+constexpr double kHeadHeight = 15;
+constexpr double kChamfer = 2;  ///< at the end of the thread
+}  // namespace bolt
+
+/// Spur gear, module 3, 24 teeth, plain bore. Axis z, origin in the centre, a tooth on x. Symmetry: 24 turns about z,
+/// and upside down.
+namespace gear {
+constexpr double kModule = 3;
+constexpr int kTeeth = 24;  ///< pitch circle 72, tip circle 78
+constexpr double kPressureAngle = 20 * std::numbers::pi / 180;
+constexpr double kDedendum = 1.25;  ///< modules from the pitch to the root circle
+constexpr double kWidth = 20;
+constexpr double kBoreRadius = 10;
+}  // namespace gear
+
+/// Plate 100 x 60 x 4 with two holes on its long axis and a slot across its middle. Origin in the centre, long side
+/// along x. Symmetry: half turns about x, y and z.
+namespace plate {
+constexpr double kLength = 100;
+constexpr double kWidth = 60;
+constexpr double kThickness = 4;
+constexpr double kHoleX = 34;
+constexpr double kHoleRadius = 7;
+constexpr double kSlotWidth = 10;   ///< x
+constexpr double kSlotLength = 36;  ///< y, round ends included
+}  // namespace plate
+
+/// Stepped shaft, 35 for half of its length and 25 for the rest. Axis z, origin in the middle of the length, the thick
+/// half towards -z. Symmetry: any turn about z; not upside down.
+namespace shaft {
+constexpr double kThick = 35;
+constexpr double kThin = 25;
+constexpr double kLength = 120;
+constexpr double kThickLength = 60;
+constexpr double kChamfer = 1;
+}  // namespace shaft
 
 }  // namespace binpick

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kMetres = 0.001;  // per millimetre
 constexpr int kBossFacets = 12;
+constexpr int kShaftFacets = 24;
 
 /// Circumradius of the regular polygon with the area of a circle of radius r: n/2 R^2 sin(2 pi/n) = pi r^2.
 double polygon_radius(double r, int facets) {
@@ -21,6 +22,15 @@ double polygon_radius(double r, int facets) {
 
 Eigen::Vector3d on_circle(double radius, double angle, double z) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// Prism about z over a regular polygon with the area of the circle, millimetres.
+TriangleMesh round_bar(double radius, int facets, double low, double high) {
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < facets; ++k)
+    for (const double z : {low, high})
+      points.push_back(kMetres * on_circle(polygon_radius(radius, facets), 2 * std::numbers::pi * k / facets, z));
+  return convex_hull(points);
 }
 
 /// Box between two corners given in millimetres.
@@ -96,6 +106,33 @@ std::vector<TriangleMesh> tee_pieces() {
   using namespace tee;
   const double x = kLength / 2, top = kHeight / 2, z = kThickness / 2;
   return {block({-x, top - kBar, -z}, {x, top, z}), block({-kStem / 2, -top, -z}, {kStem / 2, top - kBar, z})};
+}
+
+std::vector<TriangleMesh> bolt_pieces() {
+  using namespace bolt;
+  std::vector<Eigen::Vector3d> head;
+  for (int k = 0; k < 6; ++k)
+    for (const double z : {-kHeadHeight, 0.0})
+      head.push_back(kMetres * on_circle(kAcrossFlats / std::sqrt(3.0), (k + 0.5) * std::numbers::pi / 3, z));
+  return {convex_hull(head), round_bar(kThread / 2, kShaftFacets, 0, kLength)};
+}
+
+std::vector<TriangleMesh> gear_pieces() {
+  using namespace gear;
+  return ring_wedges(kMetres * kBoreRadius, kMetres * kModule * (0.5 * kTeeth + 1), kMetres * kWidth);
+}
+
+std::vector<TriangleMesh> plate_pieces() {
+  using namespace plate;
+  const double x = kLength / 2, y = kWidth / 2, z = kThickness / 2, inner = kSlotWidth / 2, end = kSlotLength / 2;
+  return {block({-x, -y, -z}, {-inner, y, z}), block({inner, -y, -z}, {x, y, z}),
+          block({-inner, -y, -z}, {inner, -end, z}), block({-inner, end, -z}, {inner, y, z})};
+}
+
+std::vector<TriangleMesh> shaft_pieces() {
+  using namespace shaft;
+  const double half = kLength / 2, step = -half + kThickLength;
+  return {round_bar(kThick / 2, kShaftFacets, -half, step), round_bar(kThin / 2, kShaftFacets, step, half)};
 }
 
 }  // namespace binpick

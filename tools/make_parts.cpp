@@ -1,6 +1,7 @@
 // make_parts OUTDIR: writes our own CAD, one folder per part: STEP (the drawing), STL (the same surface in triangles,
 // quick to load), convex pieces for the simulator and part.yaml. The tracked files in assets/parts are its output.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -45,6 +46,30 @@ void write_triangles(const std::string& folder, const std::string& name) {
   write_stl(folder + "/" + name + ".stl", read_mesh(folder + "/" + name + ".step", {"", kChord}));
 }
 
+/// What every part.yaml of ours ends with, and what stands before it.
+struct Sheet {
+  std::string comment;  ///< lines with their #
+  std::string envelope;
+  std::string pieces;  ///< what they are
+  std::string symmetry;
+};
+
+void write_sheet(const std::string& folder, const std::string& name, const Sheet& sheet) {
+  std::string mesh = "mesh: " + name + ".stl";
+  mesh.resize(std::max<std::size_t>(mesh.size() + 1, 28), ' ');
+  write_file(folder + "/part.yaml",
+             sheet.comment + "name: " + name + "\n" + mesh + "# " + name + ".step is the same shape, slower to load\n" +
+                 sheet.envelope + "pieces: pieces.obj          # " + sheet.pieces +
+                 "\n"
+                 "density: 2700\n"
+                 "friction: 0.4\n"
+                 "restitution: 0.1\n"
+                 "surface: {albedo: 0.25, specular: 0.4, roughness: 0.35}   # machined aluminium (untuned against any "
+                 "measurement)\n"
+                 "symmetry:\n" +
+                 sheet.symmetry);
+}
+
 void make_bearing(const std::string& folder) {
   using namespace bearing;
   write_bearing_step(folder + "/bearing_6914.step");
@@ -52,60 +77,101 @@ void make_bearing(const std::string& folder) {
   write_stl(folder + "/envelope.stl",
             ring_envelope(kInnerRadius / 1000, kOuterRadius / 1000, kWidth / 1000, kEnvelopeFacets));
   write_pieces(folder + "/pieces.obj", bearing_pieces());
-  write_file(
-      folder + "/part.yaml",
-      "# Sealed ball bearing 6914: bore 70, outside 100, width 16 mm. Axis z, origin in the centre. Rings and seals\n"
-      "# close it on every side; the balls and the cage inside are drawn, but no camera sees them.\n"
-      "# The envelope's 64.09 cm^3 of aluminium weigh 0.173 kg.\n"
-      "name: bearing_6914\n"
-      "mesh: bearing_6914.stl      # bearing_6914.step is the same shape, slower to load\n"
-      "envelope: envelope.stl      # ring of rectangular section, volume true\n"
-      "pieces: pieces.obj          # eight wedges\n"
-      "density: 2700\n"
-      "friction: 0.4\n"
-      "restitution: 0.1\n"
-      "symmetry:\n"
-      "  type: revolution\n"
-      "  axis: [0, 0, 1]\n"
-      "  flip: true                # both faces are alike\n");
+  write_sheet(
+      folder, "bearing_6914",
+      {"# Sealed ball bearing 6914: bore 70, outside 100, width 16 mm. Axis z, origin in the centre. Rings and seals\n"
+       "# close it on every side; the balls and the cage inside are drawn, but no camera sees them.\n"
+       "# The envelope's 64.09 cm^3 of aluminium weigh 0.173 kg.\n",
+       "envelope: envelope.stl      # ring of rectangular section, volume true\n", "eight wedges",
+       "  type: revolution\n"
+       "  axis: [0, 0, 1]\n"
+       "  flip: true                # both faces are alike\n"});
 }
 
 void make_bracket(const std::string& folder) {
   write_bracket_step(folder + "/bracket_l.step");
   write_triangles(folder, "bracket_l");
   write_pieces(folder + "/pieces.obj", bracket_pieces());
-  write_file(
-      folder + "/part.yaml",
-      "# L-bracket 90 x 60 x 60 mm of 8 mm plate with three holes and a boss. Origin at the outer corner, base plate\n"
-      "# on z = 0, upright along x = 0. No rotation carries it into itself.\n"
-      "name: bracket_l\n"
-      "mesh: bracket_l.stl         # bracket_l.step is the same shape, slower to load\n"
-      "pieces: pieces.obj          # two plates and the boss; the holes are left closed\n"
-      "density: 2700\n"
-      "friction: 0.4\n"
-      "restitution: 0.1\n"
-      "symmetry:\n"
-      "  type: none\n");
+  write_sheet(
+      folder, "bracket_l",
+      {"# L-bracket 90 x 60 x 60 mm of 8 mm plate with three holes and a boss. Origin at the outer corner, base "
+       "plate\n"
+       "# on z = 0, upright along x = 0. No rotation carries it into itself.\n",
+       "", "two plates and the boss; the holes are left closed", "  type: none\n"});
 }
 
 void make_tee(const std::string& folder) {
   write_tee_step(folder + "/tee.step");
   write_triangles(folder, "tee");
   write_pieces(folder + "/pieces.obj", tee_pieces());
-  write_file(
-      folder + "/part.yaml",
-      "# Flat T-piece 64 x 60 x 16 mm: bar along x, stem towards -y, 16 mm thick along z. Origin in the middle of its\n"
-      "# bounding box. The half turn about the stem swaps both arms and both faces; there is no other.\n"
-      "name: tee\n"
-      "mesh: tee.stl               # tee.step is the same shape, slower to load\n"
-      "pieces: pieces.obj          # bar and stem\n"
-      "density: 2700\n"
-      "friction: 0.4\n"
-      "restitution: 0.1\n"
-      "symmetry:\n"
-      "  type: cyclic\n"
-      "  axis: [0, 1, 0]\n"
-      "  order: 2\n");
+  write_sheet(
+      folder, "tee",
+      {"# Flat T-piece 64 x 60 x 16 mm: bar along x, stem towards -y, 16 mm thick along z. Origin in the middle "
+       "of its\n"
+       "# bounding box. The half turn about the stem swaps both arms and both faces; there is no other.\n",
+       "", "bar and stem",
+       "  type: cyclic\n"
+       "  axis: [0, 1, 0]\n"
+       "  order: 2\n"});
+}
+
+void make_bolt(const std::string& folder) {
+  write_bolt_step(folder + "/bolt_m24x80.step");
+  write_triangles(folder, "bolt_m24x80");
+  write_pieces(folder + "/pieces.obj", bolt_pieces());
+  write_sheet(folder, "bolt_m24x80",
+              {"# Hexagon bolt M24 x 80: head 36 mm across flats and 15 mm high, shank 24 mm. Axis z, origin under the "
+               "head,\n"
+               "# shank towards +z. The thread is drawn as a plain cylinder of the major diameter.\n",
+               "", "head and shank",
+               "  type: cyclic\n"
+               "  axis: [0, 0, 1]\n"
+               "  order: 6\n"});
+}
+
+void make_gear(const std::string& folder) {
+  write_gear_step(folder + "/gear_m3_z24.step");
+  write_triangles(folder, "gear_m3_z24");
+  write_pieces(folder + "/pieces.obj", gear_pieces());
+  write_sheet(folder, "gear_m3_z24",
+              {"# Spur gear, module 3, 24 involute teeth, 20 mm wide, plain bore of 20 mm. Axis z, origin in the "
+               "centre, a tooth\n"
+               "# on x. No hub and no keyway, so that both faces are alike and every tooth is.\n",
+               "", "eight wedges over the tooth tips: teeth do not mesh in a heap",
+               "  type: dihedral\n"
+               "  axis: [0, 0, 1]\n"
+               "  perpendicular: [1, 0, 0]\n"
+               "  order: 24\n"});
+}
+
+void make_plate(const std::string& folder) {
+  write_plate_step(folder + "/plate_100x60.step");
+  write_triangles(folder, "plate_100x60");
+  write_pieces(folder + "/pieces.obj", plate_pieces());
+  write_sheet(folder, "plate_100x60",
+              {"# Plate 100 x 60 x 4 mm with two holes of 14 mm on its long axis and a slot of 10 x 36 mm across its "
+               "middle.\n"
+               "# Origin in the centre. Half turns about x, y and z carry it into itself.\n",
+               "", "four strips round the slot; the holes are left closed",
+               "  type: dihedral\n"
+               "  axis: [0, 0, 1]\n"
+               "  perpendicular: [1, 0, 0]\n"
+               "  order: 2\n"});
+}
+
+void make_shaft(const std::string& folder) {
+  write_shaft_step(folder + "/shaft_25_35x120.step");
+  write_triangles(folder, "shaft_25_35x120");
+  write_pieces(folder + "/pieces.obj", shaft_pieces());
+  write_sheet(
+      folder, "shaft_25_35x120",
+      {"# Stepped shaft 120 mm long: 35 mm thick for z < 0, 25 mm for z > 0. Axis z, origin in the middle of its "
+       "length.\n"
+       "# Turned upside down it is another: 5 mm between the halves.\n",
+       "", "both halves",
+       "  type: revolution\n"
+       "  axis: [0, 0, 1]\n"
+       "  flip: false\n"});
 }
 
 void make_part(const std::string& out, const std::string& name, void (*make)(const std::string&)) {
@@ -125,6 +191,10 @@ int main(int argc, char** argv) {
     make_part(out, "bearing_6914", make_bearing);
     make_part(out, "bracket_l", make_bracket);
     make_part(out, "tee", make_tee);
+    make_part(out, "bolt_m24x80", make_bolt);
+    make_part(out, "gear_m3_z24", make_gear);
+    make_part(out, "plate_100x60", make_plate);
+    make_part(out, "shaft_25_35x120", make_shaft);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_parts: %s\n", error.what());
     return 2;

@@ -23,7 +23,8 @@ namespace {
 using samples::with;
 using testing::HasSubstr;
 
-const std::vector<std::string> kOwnParts = {"bearing_6914", "bracket_l", "tee"};
+const std::vector<std::string> kOwnParts = {"bearing_6914", "bracket_l",      "tee", "bolt_m24x80", "gear_m3_z24",
+                                            "plate_100x60", "shaft_25_35x120"};
 
 std::string folder_of(const std::string& part) { return std::string(BINPICK_SOURCE_DIR) + "/assets/parts/" + part; }
 Part own_part(const std::string& name) { return load_part(read_part_spec(folder_of(name) + "/part.yaml")); }
@@ -122,6 +123,72 @@ TEST(OwnParts, TeeIsTheOneOfItsDrawing) {
   EXPECT_FALSE(part.symmetry.axis);
 }
 
+TEST(OwnParts, BoltIsTheOneOfItsDrawing) {
+  const Part part = own_part("bolt_m24x80");
+  const double head = std::sqrt(3) / 2 * 36 * 36 * 15;               // of a hexagon by its width across flats
+  const double cone = std::numbers::pi / 3 * 2 * (144 + 120 + 100);  // the chamfered end: 12 to 10 over 2 mm
+  const double shank = std::numbers::pi * 144 * 78;
+  const double volume = (head + shank + cone) * 1e-9;
+  EXPECT_NEAR(part.mass.volume, volume, 1e-2 * volume);  // facets of 0.1 mm on a radius of 12
+  EXPECT_LT(part.mass.volume, volume);
+  EXPECT_NEAR(volume_of(part.pieces_P), (head + std::numbers::pi * 144 * 80) * 1e-9, 1e-6 * volume);
+  EXPECT_LT((bounding_box(part.mesh_P).sizes() - Eigen::Vector3d(0.036, 0.036 * 2 / std::sqrt(3), 0.095)).norm(), 1e-7);
+  EXPECT_EQ(part.symmetry.finite.size(), 6u);
+}
+
+TEST(OwnParts, GearHasInvoluteFlanks) {
+  const Part part = own_part("gear_m3_z24");
+  EXPECT_EQ(part.symmetry.finite.size(), 48u);
+  const auto inv = [](double x) { return std::tan(x) - x; };
+  const double alpha = 20 * std::numbers::pi / 180, base = 36 * std::cos(alpha);
+  // Tooth thickness at the pitch circle is half the pitch; measured along rays across the face, tooth by tooth.
+  const MeshQuery query(part.mesh_P);
+  for (const double r : {34.0, 35.0, 36.0, 37.5, 38.9}) {
+    const double half = std::numbers::pi / 48 + inv(alpha) - inv(std::acos(base / r));
+    for (int tooth = 0; tooth < 24; ++tooth) {
+      const auto inside = [&](double offset) {  // mm along the circle from the flank, into the gap
+        const double angle = tooth * std::numbers::pi / 12 + half + offset / r;
+        return query.ray({r * 1e-3 * std::cos(angle), r * 1e-3 * std::sin(angle), 0.05}, {0, 0, -1}, 0.2).has_value();
+      };
+      EXPECT_TRUE(inside(-0.12)) << r << " mm, tooth " << tooth;
+      EXPECT_FALSE(inside(0.12)) << r << " mm, tooth " << tooth;
+    }
+  }
+  const Eigen::Vector3d size = bounding_box(part.mesh_P).sizes();
+  EXPECT_NEAR(size.x(), 0.078, 3.1e-5);  // a tip land of +-1.58 degrees as one facet lies 0.015 mm within its circle
+  EXPECT_NEAR(size.z(), 0.020, 1e-9);
+  // The wedges hold all of the teeth: what collides is never smaller than what is seen.
+  double reach = 0;
+  for (const TriangleMesh& piece : part.pieces_P)
+    for (const Eigen::Vector3d& p : piece.vertices) reach = std::max(reach, p.head<2>().norm());
+  for (const Eigen::Vector3d& p : part.mesh_P.vertices) {
+    // Distance in a regular 24-gon with a corner at each tooth: the part of p along the middle of its side.
+    const double angle = std::atan2(p.y(), p.x()), side = std::numbers::pi / 12;
+    const double middle = (std::floor(angle / side) + 0.5) * side;
+    EXPECT_LT(p.head<2>().norm() * std::cos(angle - middle), reach * std::cos(side / 2) + 1e-9);
+  }
+}
+
+TEST(OwnParts, PlateIsTheOneOfItsDrawing) {
+  const Part part = own_part("plate_100x60");
+  const double slot = 10 * 26 + std::numbers::pi * 25;
+  const double volume = (100 * 60 - 2 * std::numbers::pi * 49 - slot) * 4e-9;
+  EXPECT_NEAR(part.mass.volume, volume, 2e-3 * volume);
+  EXPECT_NEAR(volume_of(part.pieces_P), (100 * 60 - 10 * 36) * 4e-9, 1e-6 * volume);
+  EXPECT_LT(part.mass.center_P.norm(), 1e-7);
+  EXPECT_EQ(part.symmetry.finite.size(), 4u);
+}
+
+TEST(OwnParts, ShaftIsTheOneOfItsDrawing) {
+  const Part part = own_part("shaft_25_35x120");
+  const double volume = std::numbers::pi * 60e-9 * (17.5 * 17.5 + 12.5 * 12.5);
+  EXPECT_NEAR(part.mass.volume, volume, 1.5e-2 * volume);  // facets and chamfers
+  EXPECT_NEAR(volume_of(part.pieces_P), volume, 1e-6 * volume);
+  EXPECT_NEAR(part.mass.center_P.z(), (17.5 * 17.5 * -0.03 + 12.5 * 12.5 * 0.03) / (17.5 * 17.5 + 12.5 * 12.5), 5e-4);
+  EXPECT_TRUE(part.symmetry.axis.has_value());
+  EXPECT_EQ(part.symmetry.finite.size(), 1u);
+}
+
 TEST(OwnParts, StatedSymmetriesCarryTheMeshIntoItself) {
   for (const std::string& name : kOwnParts) {
     const Part part = own_part(name);
@@ -133,7 +200,7 @@ TEST(OwnParts, StatedSymmetriesCarryTheMeshIntoItself) {
 }
 
 TEST(OwnParts, NoOtherHalfOrQuarterTurnDoes) {
-  for (const std::string name : {"bracket_l", "tee"}) {
+  for (const std::string name : {"bracket_l", "tee", "plate_100x60"}) {
     const Part part = own_part(name);
     std::size_t members = 0;
     std::set<std::string> seen;
@@ -174,7 +241,8 @@ TEST(OwnParts, StepAndStlAreTheSameShape) {
 #endif
 
 TEST(OwnParts, TrackedPiecesAreThoseOfTheProgram) {
-  const std::vector<std::vector<TriangleMesh>> made = {bearing_pieces(), bracket_pieces(), tee_pieces()};
+  const std::vector<std::vector<TriangleMesh>> made = {bearing_pieces(), bracket_pieces(), tee_pieces(),  bolt_pieces(),
+                                                       gear_pieces(),    plate_pieces(),   shaft_pieces()};
   for (std::size_t i = 0; i < kOwnParts.size(); ++i) {
     const Part part = own_part(kOwnParts[i]);
     ASSERT_EQ(part.pieces_P.size(), made[i].size());

@@ -122,9 +122,18 @@ TEST(SymmetryDetection, AnEmptyMeshHasNone) {
   EXPECT_EQ(describe(Symmetry{}), "none");
 }
 
+// A turn of 360/64 degrees alone moves the edges of this long hexagon (radius 50 mm) out by 50 cos(24.4 deg) - 43.3
+// = 2.2 mm: within the tolerance of 2.6 mm, and yet it has no more than six.
+TEST(SymmetryDetection, ASmallTurnAloneIsNoSymmetry) {
+  const Symmetry found = detect_symmetry(frustum(6, 0.9, 0.25), kTolerance);
+  EXPECT_FALSE(found.axis);
+  EXPECT_EQ(found.finite.size(), 6u);
+}
+
 // What the shipped parts state, found from their meshes alone.
 TEST(SymmetryDetection, ShippedPartsAreWhatTheirFilesSay) {
-  for (const char* name : {"bearing_6914", "bracket_l", "tee"}) {
+  for (const char* name :
+       {"bearing_6914", "bracket_l", "tee", "bolt_m24x80", "gear_m3_z24", "plate_100x60", "shaft_25_35x120"}) {
     const PartSpec spec = read_part_spec(std::string(BINPICK_SOURCE_DIR) + "/assets/parts/" + name + "/part.yaml");
     const Part part = load_part(spec);
     const Symmetry found = detect_symmetry(part.envelope_P, kTolerance);
