@@ -21,6 +21,7 @@ class PoseEstimator {
   virtual void validate() const = 0;          ///< throws SpecError
   virtual void prepare(std::span<const Part> parts) = 0;                             ///< once, may be slow
   virtual EstimateResult estimate(const SceneView& view, Seed seed) const = 0;       ///< same input, same answer
+  virtual std::size_t table_bytes() const { return 0; }  ///< of the model tables that prepare() made; 0: unknown
 };
 
 struct EstimatorEntry {

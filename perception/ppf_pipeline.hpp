@@ -20,6 +20,11 @@ class PpfEstimator : public PoseEstimator {
   void validate() const override { settings_.validate(); }
   void prepare(std::span<const Part> parts) override;
   EstimateResult estimate(const SceneView& view, Seed seed) const override;
+  std::size_t table_bytes() const override {
+    std::size_t bytes = 0;
+    for (const PreparedPart& part : parts_) bytes += part.table.bytes() + part.edge_table.bytes();
+    return bytes;
+  }
 
   const std::vector<PreparedPart>& prepared() const { return parts_; }
 

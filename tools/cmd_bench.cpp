@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "evaluation/statistics.hpp"
+#include "tools/bench/bench_commands.hpp"
 #include "tools/bench/sensor_bench.hpp"
 #include "tools/commands.hpp"
 
@@ -81,7 +82,8 @@ Action add_bench(CLI::App& app) {
                    "instead: this many frames by four threads at once are compared with the same one by one")
       ->check(CLI::Range(1, 1000000));
   sensors->add_option("--json", options->json, "file for the figures");
-  return [options] { return run_sensors(*options); };
+  const Action perception = add_bench_perception(*command);
+  return [=] { return sensors->parsed() ? run_sensors(*options) : perception(); };
 }
 
 }  // namespace binpick

@@ -138,7 +138,7 @@ std::optional<std::size_t> CellWorld::heap_index_of(BodyId body) const {
 }
 
 bool CellWorld::in_bin(std::size_t heap_index) const {
-  const Eigen::Vector3d centre_W = world_.mass_center(heap_.bodies[heap_index]);
+  const Eigen::Vector3d centre_W = part_pose(heap_index) * part_of(heap_index).mass.center_P;
   return inside_bin(cell_->bin, cell_->X_WB, centre_W, part_of(heap_index).diameter);
 }
 

@@ -1,0 +1,10 @@
+// The subjects of `binpick bench` that have a file of their own.
+#pragma once
+
+#include "tools/commands.hpp"
+
+namespace binpick {
+
+Action add_bench_perception(CLI::App& bench);
+
+}  // namespace binpick

@@ -1,0 +1,101 @@
+// binpick bench perception: recall, precision, errors and times of pose estimators on heaps of our own physics.
+
+#include <filesystem>
+#include <iostream>
+
+#include "core/error.hpp"
+#include "core/file_io.hpp"
+#include "tools/bench/bench_commands.hpp"
+#include "tools/bench/perception_rows.hpp"
+
+namespace binpick {
+namespace {
+
+struct Options {
+  PerceptionBenchConfig bench;
+  std::vector<std::string> parts, estimators, files, settings;
+  std::string scenes_folder = "scenes", seeds, json;
+  int scenes = 10;
+  bool failures = false;
+};
+
+/// The shipped scene of a part: scenes/<part>_bin.yaml, or with the first word of the part's name.
+std::string scene_of(const std::string& folder, const std::string& part) {
+  std::vector<std::string> tried;
+  for (const std::string& word : {part, part.substr(0, part.find('_'))}) {
+    tried.push_back(folder + "/" + word + "_bin.yaml");
+    if (std::filesystem::exists(tried.back())) return tried.back();
+  }
+  throw SpecError("--parts " + part + ": neither " + tried[0] + " nor " + tried[1] + " is there");
+}
+
+std::vector<ContenderSpec> contenders(const Options& options) {
+  std::vector<ContenderSpec> specs;
+  for (const std::string& text : options.estimators) specs.push_back(parse_contender(text));
+  for (const std::string& file : options.files) {
+    ContenderSpec spec;
+    spec.file = file;
+    specs.push_back(spec);
+  }
+  if (specs.empty()) specs.push_back(parse_contender("ppf"));
+  for (ContenderSpec& spec : specs)
+    spec.settings.insert(spec.settings.end(), options.settings.begin(), options.settings.end());
+  return specs;
+}
+
+void finish(Options& options) {
+  for (const std::string& part : options.parts) options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
+  if (options.bench.scenes.empty())
+    for (const char* part : {"bearing_6914", "bracket_l"})
+      options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
+  if (options.bench.sensors.empty()) options.bench.sensors = {"gauss_0.5mm", "d435_848"};
+  options.bench.contenders = contenders(options);
+  options.bench.last_seed = options.bench.first_seed + static_cast<std::uint64_t>(options.scenes);
+  if (!options.seeds.empty()) std::tie(options.bench.first_seed, options.bench.last_seed) = parse_seeds(options.seeds);
+}
+
+int run(Options options) {
+  finish(options);
+  if (!options.json.empty()) write_file(options.json, "{\"rows\": []}\n");  // a bad place is known at once
+  StderrProgress progress;
+  const std::vector<PerceptionRow> rows = bench_perception(options.bench, progress);
+  if (!options.json.empty()) write_file(options.json, json_of(rows));
+  if (!options.bench.heaps_only) std::cout << table_of(rows);
+  if (options.failures) std::cout << failures_of(rows);
+  std::cout << std::flush;
+  if (!std::cout) throw StorageError("standard output: cannot write");
+  return 0;
+}
+
+void add_options(CLI::App& command, Options& o) {
+  command.add_option("--parts", o.parts, "parts whose shipped scenes are looked at; default bearing_6914,bracket_l")
+      ->delimiter(',');
+  command.add_option("--scene-files", o.bench.scenes, "scene files, beside or in place of --parts");
+  command.add_option("--scenes-folder", o.scenes_folder, "where --parts finds <part>_bin.yaml; default scenes");
+  command.add_option("--scenes", o.scenes, "heaps of each, seeds from 100")->check(CLI::Range(1, 100000));
+  command.add_option("--seeds", o.seeds, "A:B, heaps of the seeds A .. B-1 instead");
+  command
+      .add_option("--sensor", o.bench.sensors,
+                  "gauss_0.5mm, d435_848, .. or NAME[:PRESET] of `list sensor_presets`; default these two")
+      ->delimiter(',');
+  command.add_option("--estimator", o.estimators,
+                     "TYPE, or 'TYPE key=value ..' with settings of its own; may be repeated; default ppf");
+  command.add_option("--estimator-file", o.files, "YAML as in a scene's `estimator:`; may be repeated");
+  command.add_option("--set", o.settings, "key=value for all of them, sections by dots: search.rounds=1");
+  command.add_option("--threads", o.bench.threads, "that an estimator may use")->check(CLI::Range(1, 256));
+  command.add_option("--cache", o.bench.cache, "folder in which heaps at rest are kept");
+  command.add_flag("--heaps-only", o.bench.heaps_only, "drop the heaps into --cache and look at nothing");
+  command.add_flag("--failures", o.failures, "list every missed instance and every wrong estimate");
+  command.add_option("--json", o.json, "file for the figures");
+}
+
+}  // namespace
+
+Action add_bench_perception(CLI::App& bench) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = bench.add_subcommand("perception", "recall, precision, errors and times of pose estimators");
+  add_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace binpick

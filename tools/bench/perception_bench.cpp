@@ -1,0 +1,146 @@
+#include "tools/bench/perception_bench.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/error.hpp"
+#include "tools/bench/perception_heaps.hpp"
+
+namespace binpick {
+namespace {
+
+struct Clock {
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  double cpu = processor_ms();
+
+  static double processor_ms() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  }
+  double wall_ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall).count();
+  }
+};
+
+/// One scene under one sensor: the rows are [contender][part].
+class SceneBench {
+ public:
+  SceneBench(const PerceptionBenchConfig& config, const std::string& file, const std::string& sensor)
+      : config_(config), sensor_(sensor), scenario_(read_scenario(file, {sensor})) {
+    scenario_.estimator = nullptr;  // the contenders bring their own
+    scenario_.estimator_type = "oracle";
+    context_ = make_trial_context(scenario_);
+    for (const ContenderSpec& spec : config.contenders) contenders_.emplace_back(spec);
+    for (Contender& contender : contenders_) add_rows(contender);
+  }
+
+  std::string name() const { return scenario_.name + (sensor_.empty() ? "" : " " + sensor_); }
+
+  void look(std::uint64_t seed, HeapStore& heaps) {
+    const SettledHeap& heap = heaps.heap(scenario_, context_, seed);
+    if (!heap.usable) {
+      for (PerceptionRow& row : rows_) ++row.left_out;
+      return;
+    }
+    if (config_.heaps_only) return;
+    CellWorld cell_world(scenario_.cell, scenario_.physics, context_.parts);
+    place_heap(heap, cell_world);
+    Observation seen = observe(scenario_, cell_world, context_, Seed{seed}, 0);
+    seen.view.threads = config_.threads;
+    for (std::size_t k = 0; k < contenders_.size(); ++k)  // another one begins each time
+      answer((k + seed) % contenders_.size(), seen, seed);
+  }
+
+  std::vector<PerceptionRow> take_rows() { return std::move(rows_); }
+
+ private:
+  void add_rows(Contender& contender) {
+    const std::vector<Training> training =
+        config_.heaps_only ? std::vector<Training>(context_.parts.size()) : contender.prepare(context_.parts);
+    for (std::size_t p = 0; p < context_.parts.size(); ++p) {
+      PerceptionRow row;
+      row.scene = scenario_.name;
+      row.part = context_.parts[p].name;
+      row.sensor = sensor_.empty() ? scenario_.sensor_type : sensor_;
+      row.contender = contender.name();
+      row.settings = contender.settings();
+      row.instances = static_cast<std::size_t>(scenario_.parts[p].count);
+      row.peer = contender.is_peer();
+      row.has_first = contender.can_stop_early();
+      row.training = training[p];
+      rows_.push_back(std::move(row));
+    }
+  }
+
+  void answer(std::size_t k, const Observation& seen, std::uint64_t seed) {
+    const Contender& contender = contenders_[k];
+    const Seed estimator_seed = Seed{seed}.child("estimator", 0);
+    LookTimes times;
+    const Clock clock;
+    const EstimateResult result = contender.estimate(seen, estimator_seed);
+    times.total = clock.wall_ms();
+    times.cpu = Clock::processor_ms() - clock.cpu;
+    times.preprocess = 1e3 * result.wall.preprocess;
+    times.voting = 1e3 * result.wall.voting;
+    times.verification = 1e3 * result.wall.verification;
+    times.icp = 1e3 * result.wall.icp;
+    if (contender.can_stop_early()) {
+      const Clock first;
+      contender.estimate_first(seen, estimator_seed);
+      times.first = first.wall_ms();
+    }
+    const PoseCheck check = context_.checker->check(result, seen.X_WC_believed, seen.truth);
+    const LookJudge judge{seen.truth, result, check, context_.parts, seen.X_WC_believed};
+    for (std::size_t p = 0; p < context_.parts.size(); ++p) {
+      PerceptionRow& row = rows_[k * context_.parts.size() + p];
+      row.looks.push_back(judge.of_part(p, seed));
+      row.times.push_back(times);
+    }
+  }
+
+  const PerceptionBenchConfig& config_;
+  std::string sensor_;
+  Scenario scenario_;
+  TrialContext context_;
+  std::vector<Contender> contenders_;
+  std::vector<PerceptionRow> rows_;
+};
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::string full_sensor_name(const std::string& text) {
+  if (text.empty() || text.find(':') != std::string::npos || holds(sensor_names(), text)) return text;
+  if (text.rfind("gauss_", 0) == 0) return "gauss_z:sigma_" + text.substr(6);
+  if (holds(make_sensor("disparity")->presets(), text)) return "disparity:" + text;
+  for (const SensorEntry& entry : sensor_registry())
+    if (holds(entry.make()->presets(), text)) return entry.name + ":" + text;
+  throw SpecError("--sensor " + text + ": neither a sensor nor a preset; `binpick list sensor_presets` names them");
+}
+
+std::vector<PerceptionRow> bench_perception(const PerceptionBenchConfig& config, ProgressSink& progress) {
+  HeapStore heaps(config.cache);
+  std::vector<PerceptionRow> rows;
+  const std::size_t seeds = config.last_seed - config.first_seed;
+  const std::size_t total = config.scenes.size() * config.sensors.size() * seeds;
+  std::size_t done = 0;
+  for (const std::string& file : config.scenes)
+    for (const std::string& sensor : config.sensors) {
+      SceneBench bench(config, file, full_sensor_name(sensor));
+      for (std::uint64_t seed = config.first_seed; seed < config.last_seed; ++seed) {
+        bench.look(seed, heaps);
+        progress.update(++done, total, bench.name());
+      }
+      for (PerceptionRow& row : bench.take_rows()) rows.push_back(std::move(row));
+    }
+  progress.finish();
+  return rows;
+}
+
+}  // namespace binpick

@@ -1,0 +1,49 @@
+// binpick bench perception: heaps of our own physics, one look at each, and every contender's answer to the same look,
+// in turn within the same run, so that whatever else the machine does falls on all of them. No time decides anything.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "tools/bench/perception_contender.hpp"
+#include "tools/bench/perception_score.hpp"
+
+namespace binpick {
+
+struct PerceptionBenchConfig {
+  std::vector<std::string> scenes;   ///< scene files
+  std::vector<std::string> sensors;  ///< NAME or NAME:PRESET; "": the scene's own
+  std::vector<ContenderSpec> contenders;
+  std::uint64_t first_seed = 100, last_seed = 110;  ///< the last is not used
+  int threads = 2;
+  std::string cache;        ///< folder of heaps at rest; empty: none
+  bool heaps_only = false;  ///< drop and keep the heaps, look at nothing
+};
+
+/// Times of one look in ms. Those of the stages are as the estimator reports them.
+struct LookTimes {
+  double total = 0, cpu = 0;  ///< wall; processor time of all threads
+  double first = 0;           ///< asked for one pickable pose only
+  double preprocess = 0, voting = 0, verification = 0, icp = 0;
+};
+
+/// One contender's answers to all looks at one kind of part under one sensor.
+struct PerceptionRow {
+  std::string scene, part, sensor, contender, settings;
+  std::size_t instances = 0;  ///< of the part in a heap
+  bool peer = false;
+  bool has_first = false;
+  Training training;
+  std::vector<LookScore> looks;  ///< in the order of the seeds
+  std::vector<LookTimes> times;  ///< the same; of the whole result, all kinds of parts together
+  std::size_t left_out = 0;      ///< heaps that were not at rest inside the bin
+};
+
+std::vector<PerceptionRow> bench_perception(const PerceptionBenchConfig& config, ProgressSink& progress);
+
+/// What --sensor accepts here: a name of `list sensor_presets`; the preset alone, of the disparity model where it has
+/// one; gauss_X for gauss_z:sigma_X.
+std::string full_sensor_name(const std::string& text);
+
+}  // namespace binpick

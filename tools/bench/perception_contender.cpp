@@ -1,0 +1,129 @@
+#include "tools/bench/perception_contender.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/yaml.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr int kTrainings = 3;
+constexpr double kLongTraining = 2000;  // ms: not repeated
+
+/// "a.b.c=v" as the YAML {a: {b: {c: v}}}.
+std::string nested_yaml(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw SpecError("--set " + setting + ": expected key=value, sections separated by dots");
+  std::string open, close, key = setting.substr(0, equals);
+  for (std::size_t dot; (dot = key.find('.')) != std::string::npos; key = key.substr(dot + 1)) {
+    open += "{" + key.substr(0, dot) + ": ";
+    close += "}";
+  }
+  return open + "{" + key + ": " + setting.substr(equals + 1) + "}" + close;
+}
+
+void set(const std::string& setting, const std::function<void(ConfigVisitor&)>& body) {
+  read_yaml_text(nested_yaml(setting), "--set " + setting, "", body);
+}
+
+/// True when the estimator has such a setting and takes it.
+bool apply_if_known(const std::string& setting, PoseEstimator& estimator) {
+  try {
+    set(setting, [&](ConfigVisitor& v) { estimator.visit(v); });
+    return true;
+  } catch (const SpecError&) {
+    return false;
+  }
+}
+
+/// The type and the settings of a scene's `estimator:` section, kept in a file of its own.
+struct FileSection {
+  std::string type = "ppf";
+  std::unique_ptr<PoseEstimator> estimator;
+  OracleConfig oracle;
+  void visit(ConfigVisitor& v) {
+    v.field("type", type, "estimator");
+    if (type == "oracle") return oracle.visit(v);
+    if (!estimator) estimator = make_estimator(type);
+    estimator->visit(v);
+  }
+};
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// An estimator or (null) the oracle, with everything that the specification says.
+std::unique_ptr<PoseEstimator> configured(const ContenderSpec& spec, OracleConfig& oracle) {
+  FileSection section;
+  section.type = spec.type;
+  if (!spec.file.empty()) read_yaml_file(spec.file, [&](ConfigVisitor& v) { section.visit(v); });
+  if (section.type != "oracle" && !section.estimator) section.estimator = make_estimator(section.type);
+  PoseEstimator* estimator = section.estimator.get();
+  for (const std::string& setting : spec.settings)
+    set(setting, [&](ConfigVisitor& v) { estimator ? estimator->visit(v) : section.oracle.visit(v); });
+  estimator ? estimator->validate() : section.oracle.validate();
+  oracle = section.oracle;
+  return std::move(section.estimator);
+}
+
+}  // namespace
+
+ContenderSpec parse_contender(const std::string& text) {
+  std::istringstream words(text);
+  ContenderSpec spec;
+  spec.name = text;
+  if (!(words >> spec.type)) throw SpecError("--estimator: expected a type, as in 'ppf' or 'ppf search.edges=false'");
+  for (std::string word; words >> word;) spec.settings.push_back(word);
+  return spec;
+}
+
+Contender::Contender(const ContenderSpec& spec) : name_(spec.name) {
+  estimator_ = configured(spec, oracle_);
+  if (name_.empty()) name_ = spec.file.empty() ? spec.type : spec.file;
+  if (!estimator_) return;
+  OracleConfig unused;
+  std::unique_ptr<PoseEstimator> first = configured(spec, unused);
+  if (apply_if_known("search.enough=1", *first)) first_ = std::move(first);
+}
+
+std::string Contender::settings() const {
+  return write_yaml([this](ConfigVisitor& v) {
+    if (estimator_) return estimator_->visit(v);
+    OracleConfig copy = oracle_;
+    copy.visit(v);
+  });
+}
+
+std::vector<Training> Contender::prepare(std::span<const Part> parts) {
+  parts_.assign(parts.begin(), parts.end());
+  std::vector<Training> trained(parts.size());
+  if (!estimator_) return trained;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<double> times;
+    while (times.empty() || (times.size() < kTrainings && times.front() < kLongTraining)) {
+      const auto start = std::chrono::steady_clock::now();
+      estimator_->prepare(parts.subspan(p, 1));
+      times.push_back(milliseconds_since(start));
+    }
+    trained[p] = {quantile(times, 0.5), estimator_->table_bytes()};
+  }
+  if (parts.size() > 1) estimator_->prepare(parts);
+  if (first_) first_->prepare(parts);
+  return trained;
+}
+
+EstimateResult Contender::estimate(const Observation& seen, Seed seed) const {
+  return estimator_ ? estimator_->estimate(seen.view, seed) : oracle_estimate(seen.truth, parts_, oracle_, seed);
+}
+
+EstimateResult Contender::estimate_first(const Observation& seen, Seed seed) const {
+  return first_->estimate(seen.view, seed);
+}
+
+}  // namespace binpick

@@ -1,0 +1,79 @@
+// What one look at one heap says about one kind of part, in numbers that can be pooled. Definitions: ARCHITECTURE
+// section 14; matching and errors are evaluation's (PoseChecker). SI.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/matching.hpp"
+#include "evaluation/statistics.hpp"
+
+namespace binpick {
+
+/// An instance visible >= 0.5 that no right estimate was given for.
+struct MissedInstance {
+  std::uint64_t seed = 0;
+  std::size_t body = 0;  ///< heap index
+  Pose X_CP = Pose::Identity();
+  double visible_fraction = 0;
+  int visible_pixels = 0;
+  double nearest_mssd = 0;   ///< m, of the nearest estimate to which no other instance is nearer; NaN: none
+  double nearest_score = 0;  ///< its score
+};
+
+/// An estimate that is wrong.
+struct WrongEstimate {
+  std::uint64_t seed = 0;
+  std::size_t rank = 0;  ///< 0: the first of the whole result
+  double score = 0;
+  bool ambiguous = false;  ///< flagged by the estimator
+  Pose X_CP = Pose::Identity();
+  std::optional<std::size_t> body;  ///< of the nearest instance
+  PoseError error;                  ///< against it
+  double visible_fraction = 0;
+  int visible_pixels = 0;
+  bool duplicate = false;  ///< would be right, had the instance not been given away already
+};
+
+/// A right estimate's deviation.
+struct RightEstimate {
+  double translation = 0;  ///< m, at the box centre
+  double lateral = 0;      ///< m, of it across the viewing direction
+  double z = 0;            ///< m, of it along z of C, signed: estimate minus truth
+  double rotation = 0;     ///< rad
+};
+
+struct ScoredEstimate {
+  double score = 0;
+  bool right = false;
+  bool ambiguous = false;
+};
+
+struct LookScore {
+  std::uint64_t seed = 0;
+  ClusterCount recall;          ///< instances visible >= 0.5
+  ClusterCount recall_partly;   ///< 0.3 .. 0.5
+  ClusterCount recall_tight;    ///< >= 0.5, at 0.05 diameter
+  ClusterCount precision;       ///< estimates that count
+  ClusterCount unflagged;       ///< of those, not flagged as ambiguous
+  std::optional<bool> top1;     ///< is the first estimate of this part right? Empty: nothing visible, nothing said
+  bool top1_ambiguous = false;  ///< it was flagged
+  std::vector<RightEstimate> right;
+  std::vector<MissedInstance> missed;
+  std::vector<WrongEstimate> wrong;
+  std::vector<ScoredEstimate> scored;                 ///< everything that counts for precision
+  std::vector<std::pair<int, bool>> found_by_pixels;  ///< visible pixels and whether found, instances visible >= 0.5
+};
+
+/// One part's share of a look. `X_WC` is the camera as believed, the frame of the estimates.
+struct LookJudge {
+  const GroundTruth& truth;
+  const EstimateResult& result;
+  const PoseCheck& check;
+  const std::vector<Part>& parts;
+  Pose X_WC;
+  LookScore of_part(std::size_t part, std::uint64_t seed) const;
+};
+
+}  // namespace binpick
