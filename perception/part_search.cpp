@@ -81,6 +81,7 @@ PreparedPart prepare_part(const Part& part, const PpfSettings& settings) {
   p.table = PairTable(voxel_grid(visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
   p.edge_table = PairTable(model_edges(part.mesh_P, visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
   p.surface = SurfaceModel(part.mesh_P, 0.02 * part.diameter, 1.2 * settings.icp.gate * part.diameter);
+  p.overlaps = self_overlaps(part.mesh_P, part.symmetry, part.diameter);
   return p;
 }
 

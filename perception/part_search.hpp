@@ -7,6 +7,7 @@
 #include "core/part.hpp"
 #include "perception/pair_table.hpp"
 #include "perception/ppf_settings.hpp"
+#include "perception/self_overlap.hpp"
 
 namespace binpick {
 
@@ -17,6 +18,7 @@ struct PreparedPart {
   Eigen::Vector3d center_P = Eigen::Vector3d::Zero();
   PairTable table, edge_table;
   SurfaceModel surface;
+  std::vector<SelfOverlap> overlaps;
 };
 
 PreparedPart prepare_part(const Part& part, const PpfSettings& settings);

@@ -44,6 +44,7 @@ PoseEstimate to_estimate(const Candidate& c, const Symmetry& symmetry) {
   e.part = c.part;
   e.X_CP = c.fit.X_CP;
   e.score = std::clamp(c.check.score(), 0.0, 1.0);
+  e.ambiguous = c.ambiguous;
   e.fit_rms = c.fit.rms;
   const int judged = c.check.inliers + c.check.through + c.check.off + c.check.unknown;
   e.inlier_fraction = judged > 0 ? static_cast<double>(c.check.inliers) / judged : 0;
@@ -88,6 +89,18 @@ std::vector<Candidate> PpfEstimator::search(const Scene& scene, StageTimes& wall
   return candidates;
 }
 
+/// Every pose against what the view might take for it. True when one was changed.
+bool PpfEstimator::settle(const Scene& scene, std::vector<Candidate>& standing) const {
+  bool changed = false;
+  for (Candidate& c : standing) {
+    if (c.settled) continue;
+    const PreparedPart& part = parts_[c.part];
+    changed |= settle_rivals(scene, part.surface, part.overlaps, {settings_.rivals, settings_.icp, settings_.check}, c);
+    c.settled = true;
+  }
+  return changed;
+}
+
 void PpfEstimator::prepare(std::span<const Part> parts) {
   parts_.clear();
   for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_));
@@ -112,9 +125,11 @@ EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const {
     for (Candidate& c : search(rest, result.wall)) standing.push_back(std::move(c));
     stage.lap();
     standing = resolve_conflicts(std::move(standing), models, scene, settings_.accept);
+    if (settle(scene, standing)) standing = resolve_conflicts(std::move(standing), models, scene, settings_.accept);
     result.wall.verification += stage.lap();
     if (standing.size() == before) break;  // nothing new to look past
   }
+  std::stable_partition(standing.begin(), standing.end(), [](const Candidate& c) { return !c.ambiguous; });
   for (const Candidate& c : standing) result.estimates.push_back(to_estimate(c, parts_[c.part].symmetry));
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
   result.wall.total = total.lap();

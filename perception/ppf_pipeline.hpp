@@ -4,6 +4,7 @@
 //   check     voxel grid, then along the rays                              part_search (hypothesis_check)
 //   refine    ICP on the visible points, with the silhouette               part_search (icp, view_check)
 //   settle    no two poses may claim the same place                        view_check
+//   rivals    poses the view cannot tell apart are marked and come last    rival_poses (self_overlap)
 // and a second search looks at what is still unexplained. Frame C, metres. The answer is a function of view and
 // settings alone: neither the seed nor the number of threads changes it.
 #pragma once
@@ -30,6 +31,7 @@ class PpfEstimator : public PoseEstimator {
 
  private:
   std::vector<Candidate> search(const Scene& scene, StageTimes& wall) const;
+  bool settle(const Scene& scene, std::vector<Candidate>& standing) const;
   PpfSettings settings_;
   std::vector<PreparedPart> parts_;
 };

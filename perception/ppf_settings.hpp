@@ -7,6 +7,7 @@
 #include "perception/icp.hpp"
 #include "perception/model_cloud.hpp"
 #include "perception/preprocess.hpp"
+#include "perception/rival_poses.hpp"
 #include "perception/view_check.hpp"
 #include "perception/voting.hpp"
 
@@ -55,6 +56,7 @@ struct PpfSettings {
   CheckConfig check;
   IcpConfig icp;
   AcceptConfig accept;
+  RivalConfig rivals;
 
   void visit(ConfigVisitor& v) {
     v.section("model", model, "CAD to visible points (paper 2)");
@@ -65,10 +67,11 @@ struct PpfSettings {
     v.section("check", check, "hypothesis verification (paper 4.2)");
     v.section("icp", icp, "refinement on visible points (paper 4.2)");
     v.section("accept", accept, "what is returned");
+    v.section("rivals", rivals, "poses that the view may not tell apart");
   }
   void validate() const {
     model.validate(), preprocess.validate(), normals.validate(), voting.validate(), search.validate();
-    check.validate(), icp.validate(), accept.validate();
+    check.validate(), icp.validate(), accept.validate(), rivals.validate();
   }
 };
 

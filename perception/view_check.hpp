@@ -48,6 +48,8 @@ struct Candidate {
   std::size_t part = 0;
   IcpResult fit;
   ViewCheck check;
+  bool settled = false;    ///< its rivals have been tried (rival_poses)
+  bool ambiguous = false;  ///< and one of them explains the view as well
 };
 
 /// The candidates that can stand together, best first. `models[c.part]` is the model of candidate c.

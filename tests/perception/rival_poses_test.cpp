@@ -1,0 +1,88 @@
+// What the estimator says of views that do not hold the answer.
+#include "perception/rival_poses.hpp"
+
+#include <gtest/gtest.h>
+
+#include "perception/pose_estimator.hpp"
+#include "perception/preprocess.hpp"
+#include "perception/view_ambiguity.hpp"
+#include "tests/perception/scene_maker.hpp"
+
+namespace binpick {
+namespace {
+
+using namespace testing_scene;
+
+/// Base up, upright hidden below, the middle of the base at a place of the bin.
+Pose base_up(double x, double y, double turn) {
+  const Eigen::Matrix3d R = exp_so3({0, 0, turn}) * exp_so3({std::numbers::pi, 0, 0});
+  return pose_from(R, Eigen::Vector3d(x, y, 0.06) - R * Eigen::Vector3d(0.045, 0, 0));
+}
+
+EstimateResult estimate(const Part& part, const SceneView& view) {
+  const auto estimator = make_estimator("ppf");
+  estimator->prepare(std::span<const Part>(&part, 1));
+  return estimator->estimate(view, Seed{1});
+}
+
+TEST(RivalPoses, ABracketFromBehindIsFlaggedAndComesAfterOneThatShowsItself) {
+  const Part bracket = bracket_part();
+  const Pose plain = pose_from_xyz_rpy({-0.12, 0.05, 0}, {0, 0, 0.4});
+  for (const bool noise : {false, true}) {
+    HeapOptions options;
+    options.noise = noise;
+    const HeapScene scene =
+        photograph(bracket, {{0, base_up(0, 0, 0.3), 0, 0}, {0, plain, 0, 0}}, options, Seed{3}, camera_above(0.6));
+    const auto found = estimate(bracket, scene.view).estimates;
+    ASSERT_EQ(found.size(), 2u) << noise;
+    EXPECT_FALSE(found[0].ambiguous) << noise;
+    EXPECT_TRUE(found[1].ambiguous) << noise;
+    const auto vertices = hull_vertices(bracket.mesh_P);
+    EXPECT_LT(mssd(bracket, found[0].X_CP, scene.X_WC.inverse() * plain, vertices), 0.1 * bracket.diameter) << noise;
+    // One of the two twins: the base lies where it lies.
+    const Eigen::Vector3d middle = scene.X_WC.inverse() * Eigen::Vector3d(0, 0, 0.06);
+    EXPECT_LT((found[1].X_CP * Eigen::Vector3d(0.045, 0, 0) - middle).norm(), 0.003) << noise;
+  }
+}
+
+TEST(RivalPoses, WhereTheUprightCanBeSeenTheRightTwinIsKept) {
+  const Part bracket = bracket_part();
+  HeapOptions options;
+  options.noise = false;
+  const auto vertices = hull_vertices(bracket.mesh_P);
+  for (const double turn : {0.0, std::numbers::pi}) {  // to the right of the camera: one turn shows the outer face
+    const Pose X_WP = base_up(0.13, 0, turn);
+    const HeapScene scene = photograph(bracket, {{0, X_WP, 0, 0}}, options, Seed{4}, camera_above(0.6));
+    const AmbiguousViews views(bracket);
+    const Pose X_CP = scene.X_WC.inverse() * X_WP;
+    ASSERT_FALSE(views.ambiguous(X_CP, scene.frame.camera, scene.frame.noise, &scene.frame.depth)) << turn;
+    const auto found = estimate(bracket, scene.view).estimates;
+    ASSERT_EQ(found.size(), 1u) << turn;
+    EXPECT_FALSE(found[0].ambiguous) << turn;
+    EXPECT_LT(mssd(bracket, found[0].X_CP, X_CP, vertices), 0.1 * bracket.diameter) << turn;
+  }
+}
+
+TEST(RivalPoses, ATwinThatTheSceneContradictsIsReplaced) {
+  const Part bracket = bracket_part();
+  HeapOptions options;
+  options.noise = false;
+  const Pose X_WP = base_up(0.13, 0, 0);
+  const HeapScene made = photograph(bracket, {{0, X_WP, 0, 0}}, options, Seed{5}, camera_above(0.6));
+  const Scene scene = binpick::make_scene(made.view, PreprocessConfig(), NormalsConfig(), 0.006);
+  const SurfaceModel model(bracket.mesh_P, 0.02 * bracket.diameter, 0.1 * bracket.diameter);
+  const auto overlaps = self_overlaps(bracket.mesh_P, bracket.symmetry, bracket.diameter);
+  const Pose X_CP = made.X_WC.inverse() * X_WP;
+  Candidate wrong;
+  wrong.fit.X_CP = X_CP * pose_from(exp_so3({0, 0, std::numbers::pi}), {0.09, 0, 0});
+  wrong.check = check_view(scene, model, wrong.fit.X_CP, CheckConfig());
+  const RivalConfig rivals;
+  const IcpConfig icp;
+  const CheckConfig check;
+  EXPECT_TRUE(settle_rivals(scene, model, overlaps, {rivals, icp, check}, wrong));
+  EXPECT_FALSE(wrong.ambiguous);
+  EXPECT_LT(mssd(bracket, wrong.fit.X_CP, X_CP, hull_vertices(bracket.mesh_P)), 0.002);
+}
+
+}  // namespace
+}  // namespace binpick
