@@ -5,7 +5,10 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/quantity.hpp"
 #include "tools/bench/bench_commands.hpp"
+#include "tools/bench/perception_ablation.hpp"
+#include "tools/bench/perception_calibration.hpp"
 #include "tools/bench/perception_rows.hpp"
 
 namespace binpick {
@@ -14,9 +17,9 @@ namespace {
 struct Options {
   PerceptionBenchConfig bench;
   std::vector<std::string> parts, estimators, files, settings;
-  std::string scenes_folder = "scenes", seeds, json;
+  std::string scenes_folder = "scenes", seeds, json, calibration, bin_offset, bin_turn;
   int scenes = 10;
-  bool failures = false;
+  bool failures = false, ablation = false;
 };
 
 /// The shipped scene of a part: scenes/<part>_bin.yaml, or with the first word of the part's name.
@@ -31,6 +34,7 @@ std::string scene_of(const std::string& folder, const std::string& part) {
 
 std::vector<ContenderSpec> contenders(const Options& options) {
   std::vector<ContenderSpec> specs;
+  if (options.ablation) specs = ablation_variants();
   for (const std::string& text : options.estimators) specs.push_back(parse_contender(text));
   for (const std::string& file : options.files) {
     ContenderSpec spec;
@@ -51,6 +55,9 @@ void finish(Options& options) {
   if (options.bench.sensors.empty()) options.bench.sensors = {"gauss_0.5mm", "d435_848"};
   options.bench.contenders = contenders(options);
   options.bench.last_seed = options.bench.first_seed + static_cast<std::uint64_t>(options.scenes);
+  ViewTrouble& trouble = options.bench.trouble;
+  if (!options.bin_offset.empty()) trouble.bin_offset = parse_quantity(options.bin_offset, Unit::kLength);
+  if (!options.bin_turn.empty()) trouble.bin_turn = parse_quantity(options.bin_turn, Unit::kAngle);
   if (!options.seeds.empty()) std::tie(options.bench.first_seed, options.bench.last_seed) = parse_seeds(options.seeds);
 }
 
@@ -60,7 +67,8 @@ int run(Options options) {
   StderrProgress progress;
   const std::vector<PerceptionRow> rows = bench_perception(options.bench, progress);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
-  if (!options.bench.heaps_only) std::cout << table_of(rows);
+  if (!options.bench.heaps_only) std::cout << (options.ablation ? ablation_table(rows) : table_of(rows));
+  if (!options.calibration.empty()) std::cout << "\n" << write_calibration(rows, options.calibration);
   if (options.failures) std::cout << failures_of(rows);
   std::cout << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
@@ -86,7 +94,20 @@ void add_options(CLI::App& command, Options& o) {
   command.add_option("--cache", o.bench.cache, "folder in which heaps at rest are kept");
   command.add_flag("--heaps-only", o.bench.heaps_only, "drop the heaps into --cache and look at nothing");
   command.add_flag("--failures", o.failures, "list every missed instance and every wrong estimate");
+  command.add_flag("--ablation", o.ablation, "each step taken out alone, as Markdown");
+  command.add_option("--calibration", o.calibration, "folder for the curve of the scores: CSV and picture");
   command.add_option("--json", o.json, "file for the figures");
+}
+
+void add_troubles(CLI::App& command, Options& o) {
+  ViewTrouble& trouble = o.bench.trouble;
+  command.add_option("--bin-offset", o.bin_offset, "the believed bin is off by this length, as in '5 mm'");
+  command.add_option("--bin-turn", o.bin_turn, "and turned by this angle, as in '1 deg'");
+  command.add_flag("--no-bin", trouble.no_bin, "the estimator is told of no bin: floor and walls stay in the cloud");
+  command.add_flag("--as-cloud", trouble.as_cloud, "points in random order in place of the depth image");
+  command.add_flag("--no-parts", trouble.no_parts, "the bins are empty: every estimate is wrong");
+  command.add_option("--other-part", trouble.other_part,
+                     "part.yaml that is looked for instead: every estimate is wrong");
 }
 
 }  // namespace
@@ -95,6 +116,7 @@ Action add_bench_perception(CLI::App& bench) {
   auto options = std::make_shared<Options>();
   CLI::App* command = bench.add_subcommand("perception", "recall, precision, errors and times of pose estimators");
   add_options(*command, *options);
+  add_troubles(*command, *options);
   return [options] { return run(*options); };
 }
 

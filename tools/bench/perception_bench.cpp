@@ -33,6 +33,7 @@ class SceneBench {
     scenario_.estimator = nullptr;  // the contenders bring their own
     scenario_.estimator_type = "oracle";
     context_ = make_trial_context(scenario_);
+    choose_sought();
     for (const ContenderSpec& spec : config.contenders) contenders_.emplace_back(spec);
     for (Contender& contender : contenders_) add_rows(contender);
   }
@@ -46,10 +47,8 @@ class SceneBench {
       return;
     }
     if (config_.heaps_only) return;
-    CellWorld cell_world(scenario_.cell, scenario_.physics, context_.parts);
-    place_heap(heap, cell_world);
-    Observation seen = observe(scenario_, cell_world, context_, Seed{seed}, 0);
-    seen.view.threads = config_.threads;
+    const Observation seen = look_at(heap, seed);
+    ++looks_;
     for (std::size_t k = 0; k < contenders_.size(); ++k)  // another one begins each time
       answer((k + seed) % contenders_.size(), seen, seed);
   }
@@ -57,17 +56,35 @@ class SceneBench {
   std::vector<PerceptionRow> take_rows() { return std::move(rows_); }
 
  private:
+  /// Usually the scene's own parts, and their instances are the truth; what else is looked for is not there.
+  void choose_sought() {
+    sought_ = context_.parts;
+    if (config_.trouble.other_part.empty()) return;
+    sought_ = {load_part(read_part_spec(config_.trouble.other_part))};
+    context_.checker = std::make_unique<const PoseChecker>(sought_);
+  }
+
+  Observation look_at(const SettledHeap& heap, std::uint64_t seed) {
+    CellWorld cell_world(scenario_.cell, scenario_.physics, context_.parts);
+    place_heap(config_.trouble.no_parts ? SettledHeap{} : heap, cell_world);
+    Observation seen = observe(scenario_, cell_world, context_, Seed{seed}, 0);
+    if (!config_.trouble.other_part.empty()) seen.truth.instances.clear();
+    seen.view = troubled(std::move(seen.view), config_.trouble, Seed{seed}.child("trouble"));
+    seen.view.threads = config_.threads;
+    return seen;
+  }
+
   void add_rows(Contender& contender) {
     const std::vector<Training> training =
-        config_.heaps_only ? std::vector<Training>(context_.parts.size()) : contender.prepare(context_.parts);
-    for (std::size_t p = 0; p < context_.parts.size(); ++p) {
+        config_.heaps_only ? std::vector<Training>(sought_.size()) : contender.prepare(sought_);
+    for (std::size_t p = 0; p < sought_.size(); ++p) {
       PerceptionRow row;
       row.scene = scenario_.name;
-      row.part = context_.parts[p].name;
+      row.part = sought_[p].name;
       row.sensor = sensor_.empty() ? scenario_.sensor_type : sensor_;
       row.contender = contender.name();
       row.settings = contender.settings();
-      row.instances = static_cast<std::size_t>(scenario_.parts[p].count);
+      row.instances = nothing_there() ? 0 : static_cast<std::size_t>(scenario_.parts[p].count);
       row.peer = contender.is_peer();
       row.has_first = contender.can_stop_early();
       row.training = training[p];
@@ -75,8 +92,11 @@ class SceneBench {
     }
   }
 
+  bool nothing_there() const { return config_.trouble.no_parts || !config_.trouble.other_part.empty(); }
+
   void answer(std::size_t k, const Observation& seen, std::uint64_t seed) {
     const Contender& contender = contenders_[k];
+    if (contender.is_peer() && looks_ > config_.peer_scenes) return;
     const Seed estimator_seed = Seed{seed}.child("estimator", 0);
     LookTimes times;
     const Clock clock;
@@ -93,9 +113,9 @@ class SceneBench {
       times.first = first.wall_ms();
     }
     const PoseCheck check = context_.checker->check(result, seen.X_WC_believed, seen.truth);
-    const LookJudge judge{seen.truth, result, check, context_.parts, seen.X_WC_believed};
-    for (std::size_t p = 0; p < context_.parts.size(); ++p) {
-      PerceptionRow& row = rows_[k * context_.parts.size() + p];
+    const LookJudge judge{seen.truth, result, check, sought_, seen.X_WC_believed};
+    for (std::size_t p = 0; p < sought_.size(); ++p) {
+      PerceptionRow& row = rows_[k * sought_.size() + p];
       row.looks.push_back(judge.of_part(p, seed));
       row.times.push_back(times);
     }
@@ -105,7 +125,9 @@ class SceneBench {
   std::string sensor_;
   Scenario scenario_;
   TrialContext context_;
+  std::vector<Part> sought_;
   std::vector<Contender> contenders_;
+  int looks_ = 0;
   std::vector<PerceptionRow> rows_;
 };
 

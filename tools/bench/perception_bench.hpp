@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "tools/bench/perception_contender.hpp"
 #include "tools/bench/perception_score.hpp"
+#include "tools/bench/perception_view.hpp"
 
 namespace binpick {
 
@@ -17,6 +18,8 @@ struct PerceptionBenchConfig {
   std::vector<ContenderSpec> contenders;
   std::uint64_t first_seed = 100, last_seed = 110;  ///< the last is not used
   int threads = 2;
+  int peer_scenes = 3;  ///< heaps that peers are asked about, the first ones: they take seconds each
+  ViewTrouble trouble;
   std::string cache;        ///< folder of heaps at rest; empty: none
   bool heaps_only = false;  ///< drop and keep the heaps, look at nothing
 };
