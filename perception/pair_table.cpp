@@ -1,7 +1,10 @@
 #include "perception/pair_table.hpp"
 
+#include <limits>
+
 #include "core/check.hpp"
 #include "core/error.hpp"
+#include "perception/point_columns.hpp"
 
 namespace binpick {
 namespace {
@@ -57,23 +60,34 @@ PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const 
   std::vector<PlacedEntry> placed;
   placed.reserve(kept.size() * points.size());
   first_.assign(static_cast<std::size_t>(quantiser.cells()) + 1, 0);
+  const OrientedColumns columns(points);
+  const PairLimits limits{quantiser.steps(), std::numeric_limits<float>::max()};
+  std::vector<int> cell(points.size()), alpha(points.size());
   for (std::size_t r = 0; r < kept.size(); ++r) {
-    const OrientedPoint& a = points[kept[r]];
-    references_.push_back(a);
-    const Eigen::Matrix3f R = frame_with_x(a.normal);
+    references_.push_back(points[kept[r]]);
+    pair_cells(pair_reference(references_.back()), columns.view(), static_cast<int>(points.size()), limits, cell.data(),
+               alpha.data());
     for (std::size_t j = 0; j < points.size(); ++j) {
-      if (j == kept[r]) continue;
-      const int cell = quantiser.cell(pair_feature(a, points[j]));
-      if (cell < 0) continue;
-      const std::uint16_t alpha = alpha_turns(R, points[j].point - a.point);
-      placed.push_back({cell, {static_cast<std::uint16_t>(r), alpha}});
-      ++first_[static_cast<std::size_t>(cell) + 1];
+      if (cell[j] < 0) continue;
+      placed.push_back({cell[j], {static_cast<std::uint16_t>(alpha[j]), static_cast<std::uint16_t>(r)}});
+      ++first_[static_cast<std::size_t>(cell[j]) + 1];
     }
   }
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   entries_.resize(placed.size());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (const PlacedEntry& p : placed) entries_[next[static_cast<std::size_t>(p.cell)]++] = p.entry;
+  count_repeats();
+}
+
+void PairTable::count_repeats() {
+  for (std::size_t c = 0; c + 1 < first_.size(); ++c) {
+    std::uint32_t run = 0;  // a cell's entries come reference by reference
+    for (std::uint32_t k = first_[c]; k < first_[c + 1]; ++k) {
+      run = k > first_[c] && entries_[k].reference == entries_[k - 1].reference ? run + 1 : 1;
+      most_of_one_ = std::max(most_of_one_, run);
+    }
+  }
 }
 
 }  // namespace binpick

@@ -10,14 +10,10 @@
 
 #include "core/point_cloud.hpp"
 #include "core/symmetry.hpp"
+#include "perception/pair_entry.hpp"
 #include "perception/pair_feature.hpp"
 
 namespace binpick {
-
-struct PairEntry {
-  std::uint16_t reference = 0;  ///< index into PairTable::references()
-  std::uint16_t alpha = 0;      ///< turns / 65536
-};
 
 class PairTable {
  public:
@@ -28,16 +24,23 @@ class PairTable {
   std::span<const PairEntry> entries(int cell) const {
     return {entries_.data() + first_[cell], entries_.data() + first_[cell + 1]};
   }
+  const std::vector<PairEntry>& all_entries() const { return entries_; }
+  /// first()[c] .. first()[c + 1]: the entries of cell c among all_entries().
+  const std::vector<std::uint32_t>& first() const { return first_; }
   const PairQuantiser& quantiser() const { return quantiser_; }
   const std::vector<OrientedPoint>& references() const { return references_; }
+  /// Most entries that one cell holds of one reference: what a single pair can add to one counter.
+  std::uint32_t most_of_one() const { return most_of_one_; }
   std::size_t entry_count() const { return entries_.size(); }
   std::size_t bytes() const { return entries_.size() * sizeof(PairEntry) + first_.size() * sizeof(std::uint32_t); }
 
  private:
+  void count_repeats();
   PairQuantiser quantiser_;
   std::vector<OrientedPoint> references_;
   std::vector<std::uint32_t> first_ = {0};
   std::vector<PairEntry> entries_;
+  std::uint32_t most_of_one_ = 0;
 };
 
 }  // namespace binpick

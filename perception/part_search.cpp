@@ -20,10 +20,9 @@ void sort_best_first(std::vector<PoseHypothesis>& poses) {
                    [](const PoseHypothesis& a, const PoseHypothesis& b) { return a.votes > b.votes; });
 }
 
-std::vector<PoseHypothesis> clusters_of(const PointCloud& points_C, const PairTable& table, const PreparedPart& part,
+std::vector<PoseHypothesis> clusters_of(std::vector<PoseHypothesis> votes, const PreparedPart& part,
                                         const PpfSettings& settings) {
-  std::vector<PoseHypothesis> poses = cluster_poses(vote(points_C, table, part.diameter, settings.voting),
-                                                    part.symmetry, same(part, settings.search, 1));
+  std::vector<PoseHypothesis> poses = cluster_poses(std::move(votes), part.symmetry, same(part, settings.search, 1));
   const auto most = static_cast<std::size_t>(settings.search.clusters);
   if (poses.size() > most) poses.resize(most);
   return poses;
@@ -88,6 +87,7 @@ PreparedPart prepare_part(const Part& part, const PpfSettings& settings) {
 ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const PpfSettings& settings) {
   const double voxel = settings.preprocess.voxel * part.diameter;
   ScenePoints points;
+  points.threads = scene.threads;
   points.surface_C = voxel_grid(scene, voxel);
   if (settings.search.edges) points.edges_C = scene_edges(scene, voxel);
   return points;
@@ -95,8 +95,11 @@ ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const Ppf
 
 std::vector<PoseHypothesis> voted_poses(const ScenePoints& points, const PreparedPart& part,
                                         const PpfSettings& settings) {
-  std::vector<PoseHypothesis> poses = clusters_of(points.surface_C, part.table, part, settings);
-  for (PoseHypothesis& pose : clusters_of(points.edges_C, part.edge_table, part, settings)) poses.push_back(pose);
+  const auto voted = [&](const PointCloud& points_C, const PairTable& table) {
+    return clusters_of(vote(points_C, table, part.diameter, settings.voting, points.threads), part, settings);
+  };
+  std::vector<PoseHypothesis> poses = voted(points.surface_C, part.table);
+  for (PoseHypothesis& pose : voted(points.edges_C, part.edge_table)) poses.push_back(pose);
   return poses;
 }
 

@@ -26,6 +26,7 @@ PreparedPart prepare_part(const Part& part, const PpfSettings& settings);
 /// The wanted points of a scene on the part's voxel grid (paper 3.1), and its oriented edge points.
 struct ScenePoints {
   PointCloud surface_C, edges_C;
+  int threads = 1;
 };
 ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const PpfSettings& settings);
 

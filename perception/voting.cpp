@@ -5,52 +5,84 @@
 
 #include "core/check.hpp"
 #include "core/error.hpp"
-#include "perception/neighbours.hpp"
+#include "core/parallel.hpp"
+#include "perception/point_columns.hpp"
+#include "perception/vote_kernel.hpp"
 
 namespace binpick {
 namespace {
 
-constexpr int kAngles = 32;  // 11.25 degrees, a power of two so that turns / 65536 wrap around by themselves
-constexpr int kShift = 11;   // 65536 / 32 = 2^11
+constexpr std::size_t kChunk = 32;  // scene references that share their buffers
 
+/// A row (model reference) and column (alpha) of the accumulator.
 struct Peak {
-  int cell;
+  std::size_t row;
+  int column;
   int votes;
 };
 
-/// The accumulator (model reference, alpha) of one scene reference.
-class Accumulator {
- public:
-  explicit Accumulator(std::size_t references) : votes_(references * kAngles, 0) {}
-
-  void clear() { std::fill(votes_.begin(), votes_.end(), std::uint32_t{0}); }
-
-  void add(std::span<const PairEntry> entries, std::uint16_t scene_alpha) {
-    const auto turned = static_cast<std::uint16_t>(scene_alpha + (1 << (kShift - 1)));
-    for (const PairEntry e : entries)
-      ++votes_[e.reference * kAngles + (static_cast<std::uint16_t>(turned - e.alpha) >> kShift)];
+/// The best cells of an accumulator, none beside a better one of the same model reference; ties go to the lower cell.
+template <class Votes>
+std::vector<Peak> peaks_of(const std::vector<Votes>& votes, std::vector<Votes>& maxima, const VotingConfig& config) {
+  std::vector<Peak> found;
+  const auto best = static_cast<int>(row_maxima(votes.data(), maxima.size(), maxima.data()));
+  if (best < 3) return found;
+  const auto least = static_cast<Votes>(std::max(3, static_cast<int>(config.peak_ratio * best)));
+  for (std::size_t r = 0; r < maxima.size(); ++r) {
+    if (maxima[r] < least) continue;
+    const Votes* row = votes.data() + r * kAngles;
+    for (int c = 0; c < kAngles; ++c)
+      if (row[c] >= least && row[c] >= row[(c + 1) % kAngles] && row[c] > row[(c + kAngles - 1) % kAngles])
+        found.push_back({r, c, static_cast<int>(row[c])});
   }
+  std::stable_sort(found.begin(), found.end(), [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
+  if (found.size() > static_cast<std::size_t>(config.peaks)) found.resize(static_cast<std::size_t>(config.peaks));
+  return found;
+}
 
-  /// The best cells, none beside a better one of the same model reference; ties go to the lower cell.
-  std::vector<Peak> peaks(const VotingConfig& config) const {
-    std::vector<Peak> found;
-    const auto best = static_cast<int>(*std::max_element(votes_.begin(), votes_.end()));
-    if (best < 3) return found;
-    const auto least = static_cast<std::uint32_t>(std::max(3, static_cast<int>(config.peak_ratio * best)));
-    for (std::size_t c = 0; c < votes_.size(); ++c)
-      if (votes_[c] >= least && is_peak(c)) found.push_back({static_cast<int>(c), static_cast<int>(votes_[c])});
-    std::stable_sort(found.begin(), found.end(), [](const Peak& a, const Peak& b) { return a.votes > b.votes; });
-    if (found.size() > static_cast<std::size_t>(config.peaks)) found.resize(static_cast<std::size_t>(config.peaks));
-    return found;
+/// Votes of one scene reference after another; owns what that takes.
+class Voter {
+ public:
+  Voter(const PointColumns& scene, const PairTable& table, double radius, const VotingConfig& config)
+      : scene_(scene),
+        table_(table),
+        config_(config),
+        radius_(static_cast<float>(radius)),
+        limits_{table.quantiser().steps(), radius_ * radius_},
+        view_{table.first().data(), table.all_entries().data(), static_cast<std::uint32_t>(config.largest_cell),
+              config.thin_cells},
+        partners_(scene.size() + 8),
+        cell_(scene.size() + 8),
+        alpha_(scene.size() + 8) {}
+
+  std::vector<Peak> peaks(const OrientedPoint& reference) {
+    const std::size_t count = scene_.gather(reference.point, radius_, partners_);
+    pair_cells(pair_reference(reference), partners_.view(), static_cast<int>(count), limits_, cell_.data(),
+               alpha_.data());
+    const int pairs = compact_pairs(cell_.data(), alpha_.data(), static_cast<int>(count));
+    const bool fits = static_cast<std::uint64_t>(pairs) * table_.most_of_one() <= 65535;
+    return fits ? counted(pairs, narrow_, narrow_maxima_) : counted(pairs, wide_, wide_maxima_);
   }
 
  private:
-  bool is_peak(std::size_t c) const {
-    const std::size_t row = c - c % kAngles;
-    const std::size_t left = row + (c + kAngles - 1) % kAngles, right = row + (c + 1) % kAngles;
-    return votes_[c] >= votes_[right] && votes_[c] > votes_[left];
+  template <class Votes>
+  std::vector<Peak> counted(int pairs, std::vector<Votes>& votes, std::vector<Votes>& maxima) {
+    votes.assign(table_.references().size() * kAngles, Votes{0});
+    maxima.resize(table_.references().size());
+    cast_votes(view_, {cell_.data(), alpha_.data(), pairs}, votes.data());
+    return peaks_of(votes, maxima, config_);
   }
-  std::vector<std::uint32_t> votes_;
+
+  const PointColumns& scene_;
+  const PairTable& table_;
+  const VotingConfig& config_;
+  float radius_;
+  PairLimits limits_;
+  TableView view_;
+  OrientedColumns partners_;
+  std::vector<int> cell_, alpha_;
+  std::vector<std::uint16_t> narrow_, narrow_maxima_;
+  std::vector<std::uint32_t> wide_, wide_maxima_;
 };
 
 }  // namespace
@@ -62,6 +94,7 @@ void VotingConfig::visit(ConfigVisitor& v) {
   v.field("reference_step", reference_step, "every n-th scene point is a reference");
   v.field("pair_radius", pair_radius, Unit::kNone, "longest pair that votes, of the diameter");
   v.field("largest_cell", largest_cell, "table cells with more entries are skipped");
+  v.field("thin_cells", thin_cells, "or thinned to so many entries instead of skipped");
   v.field("peaks", peaks, "poses that one reference may give");
   v.field("peak_ratio", peak_ratio, Unit::kNone, "least votes of the further ones, of the best");
 }
@@ -92,34 +125,30 @@ Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, 
 }
 
 std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
-                                 const VotingConfig& config) {
+                                 const VotingConfig& config, int threads) {
   BP_CHECK(scene_C.points.empty() || scene_C.has_normals());
   std::vector<PoseHypothesis> found;
   if (scene_C.points.empty() || table.references().empty()) return found;
-  std::vector<Eigen::Vector3f> positions;
-  for (const Eigen::Vector3d& p : scene_C.points) positions.push_back(p.cast<float>());
-  const auto oriented = [&](std::size_t i) { return OrientedPoint{positions[i], scene_C.normals[i].cast<float>()}; };
-  const auto radius = static_cast<float>(config.pair_radius * diameter);
-  const PointGrid grid(positions, radius / 3);
-  Accumulator accumulator(table.references().size());
-  for (std::size_t i = 0; i < positions.size(); i += static_cast<std::size_t>(config.reference_step)) {
-    accumulator.clear();
-    const OrientedPoint reference = oriented(i);
-    const Eigen::Matrix3f R = frame_with_x(reference.normal);
-    grid.within(reference.point, radius, [&](std::uint32_t j) {
-      if (j == i) return;
-      const int cell = table.quantiser().cell(pair_feature(reference, oriented(j)));
-      if (cell < 0) return;
-      const auto entries = table.entries(cell);
-      if (entries.empty() || entries.size() > static_cast<std::size_t>(config.largest_cell)) return;
-      accumulator.add(entries, alpha_turns(R, positions[j] - reference.point));
-    });
-    for (const Peak& peak : accumulator.peaks(config)) {
-      const double alpha = (peak.cell % kAngles) * (2 * std::numbers::pi / kAngles);
-      const OrientedPoint& model = table.references()[static_cast<std::size_t>(peak.cell / kAngles)];
-      found.push_back({pose_from_vote(reference, model, alpha), static_cast<double>(peak.votes)});
+  std::vector<OrientedPoint> points;
+  points.reserve(scene_C.size());
+  for (std::size_t i = 0; i < scene_C.size(); ++i)
+    points.push_back({scene_C.points[i].cast<float>(), scene_C.normals[i].cast<float>()});
+  const double radius = config.pair_radius * diameter;
+  const PointColumns columns(points, static_cast<float>(radius / 4));
+  const auto step = static_cast<std::size_t>(config.reference_step);
+  const std::size_t references = (points.size() + step - 1) / step;
+  std::vector<std::vector<PoseHypothesis>> parts((references + kChunk - 1) / kChunk);
+  parallel_for(parts.size(), threads, [&](std::size_t part) {
+    Voter voter(columns, table, radius, config);
+    for (std::size_t i = part * kChunk; i < std::min(references, (part + 1) * kChunk); ++i) {
+      const OrientedPoint& reference = points[i * step];
+      for (const Peak& peak : voter.peaks(reference))
+        parts[part].push_back(
+            {pose_from_vote(reference, table.references()[peak.row], peak.column * (2 * std::numbers::pi / kAngles)),
+             static_cast<double>(peak.votes)});
     }
-  }
+  });
+  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
   return found;
 }
 

@@ -19,6 +19,7 @@ struct VotingConfig {
   int reference_step = 4;          ///< every n-th scene point is a reference
   double pair_radius = 0.6;        ///< of the diameter: longest pair that votes
   int largest_cell = 600;          ///< cells with more entries (coplanar pairs) say little and cost most: skipped
+  bool thin_cells = false;         ///< or thinned to so many entries, which then weigh less, instead of skipped
   int peaks = 3;                   ///< poses a reference may give
   double peak_ratio = 0.7;         ///< of its best, for the further ones
 
@@ -34,7 +35,7 @@ struct PoseHypothesis {
 
 /// Peaks of all references, in the order of the references. Both clouds carry normals.
 std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
-                                 const VotingConfig& config);
+                                 const VotingConfig& config, int threads = 1);
 
 /// The pose that lays a model reference and its pair onto a scene reference: alpha = scene angle - model angle (rad).
 Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, double alpha);

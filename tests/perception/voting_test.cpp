@@ -70,6 +70,29 @@ TEST(Voting, AgreesWithBruteForceOnSmallClouds) {
   }
 }
 
+TEST(Voting, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const PointCloud model = random_points(1, 80);
+  PointCloud scene;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Pose X = pose_from(Eigen::Matrix3d::Identity(), {0.02 * static_cast<double>(seed), 0, 0.6});
+    const PointCloud part = transformed(X, random_points(seed, 80));
+    scene.points.insert(scene.points.end(), part.points.begin(), part.points.end());
+    scene.normals.insert(scene.normals.end(), part.normals.begin(), part.normals.end());
+  }
+  const VotingConfig config = exact_config();
+  const PairTable table(model, Symmetry(), config.quantiser(0.1), 1e-4);
+  const auto one = vote(scene, table, 0.1, config, 1);
+  EXPECT_GT(one.size(), 150u);
+  for (const int threads : {2, 3, 7}) {
+    const auto more = vote(scene, table, 0.1, config, threads);
+    ASSERT_EQ(more.size(), one.size()) << threads;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      ASSERT_EQ(more[i].votes, one[i].votes) << threads;
+      ASSERT_TRUE(more[i].X_CP.matrix() == one[i].X_CP.matrix()) << threads;
+    }
+  }
+}
+
 TEST(Voting, FindsTheOnlyPose) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const PointCloud model = random_points(seed, 60);
@@ -129,6 +152,45 @@ TEST(PoseClustering, TakesSymmetricTwinsAsOne) {
   ASSERT_EQ(clusters.size(), 2u);
   EXPECT_EQ(clusters[0].votes, 6);  // three twins together beat the other
   EXPECT_TRUE(clusters[0].X_CP.isApprox(X));
+}
+
+/// Every pose against every cluster, in turn.
+std::vector<PoseHypothesis> clusters_in_turn(std::vector<PoseHypothesis> poses, const Symmetry& symmetry,
+                                             const SamePose& limits) {
+  const auto best_first = [](const PoseHypothesis& a, const PoseHypothesis& b) { return a.votes > b.votes; };
+  std::stable_sort(poses.begin(), poses.end(), best_first);
+  std::vector<PoseHypothesis> clusters;
+  for (const PoseHypothesis& pose : poses) {
+    const auto same = std::find_if(clusters.begin(), clusters.end(), [&](const PoseHypothesis& c) {
+      return same_pose(c.X_CP, pose.X_CP, symmetry, limits);
+    });
+    same == clusters.end() ? clusters.push_back(pose) : static_cast<void>(same->votes += pose.votes);
+  }
+  std::stable_sort(clusters.begin(), clusters.end(), best_first);
+  return clusters;
+}
+
+TEST(PoseClustering, AgreesWithTryingEveryPoseAgainstEveryCluster) {
+  const Part ring = testing_scene::ring_part();
+  const SamePose limits{Eigen::Vector3d(0.01, 0, 0.002), 0.01, 0.6};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const Symmetry& symmetry : {Symmetry(), ring.symmetry}) {
+      Rng rng(seed);
+      std::vector<PoseHypothesis> poses;
+      for (int k = 0; k < 700; ++k) {
+        const Eigen::Vector3d place = k % 10 == 0 ? Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal())
+                                                  : Eigen::Vector3d(0.02 * rng.unit_vector());
+        const Pose X = pose_from(exp_so3(0.6 * rng.unit_vector() * rng.uniform()), place);
+        poses.push_back({X, static_cast<double>(rng.below(40))});
+      }
+      const auto expected = clusters_in_turn(poses, symmetry, limits), found = cluster_poses(poses, symmetry, limits);
+      EXPECT_LT(expected.size(), poses.size());
+      ASSERT_EQ(found.size(), expected.size()) << "seed " << seed;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].votes, expected[i].votes) << "seed " << seed << " cluster " << i;
+        EXPECT_TRUE(found[i].X_CP.matrix() == expected[i].X_CP.matrix()) << "seed " << seed << " cluster " << i;
+      }
+    }
 }
 
 }  // namespace
