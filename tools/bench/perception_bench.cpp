@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
+#include "perception/view_ambiguity.hpp"
 #include "tools/bench/perception_heaps.hpp"
 
 namespace binpick {
@@ -48,6 +49,7 @@ class SceneBench {
     }
     if (config_.heaps_only) return;
     const Observation seen = look_at(heap, seed);
+    ambiguous_ = ambiguous_instances(seen);
     ++looks_;
     for (std::size_t k = 0; k < contenders_.size(); ++k)  // another one begins each time
       answer((k + seed) % contenders_.size(), seen, seed);
@@ -59,9 +61,21 @@ class SceneBench {
   /// Usually the scene's own parts, and their instances are the truth; what else is looked for is not there.
   void choose_sought() {
     sought_ = context_.parts;
-    if (config_.trouble.other_part.empty()) return;
-    sought_ = {load_part(read_part_spec(config_.trouble.other_part))};
-    context_.checker = std::make_unique<const PoseChecker>(sought_);
+    if (!config_.trouble.other_part.empty()) {
+      sought_ = {load_part(read_part_spec(config_.trouble.other_part))};
+      context_.checker = std::make_unique<const PoseChecker>(sought_);
+    }
+    for (const Part& part : sought_) views_.emplace_back(part);
+  }
+
+  /// Which instances are seen, by the first camera, so that another pose of the part would look the same?
+  std::vector<bool> ambiguous_instances(const Observation& seen) const {
+    const Capture& first = seen.captures.front();
+    std::vector<bool> ambiguous;
+    for (const GroundTruth::Instance& instance : seen.truth.instances)
+      ambiguous.push_back(views_[instance.part].ambiguous(seen.truth.X_WC.inverse() * instance.X_WP, first.frame.camera,
+                                                          first.frame.noise, &first.exact.depth));
+    return ambiguous;
   }
 
   Observation look_at(const SettledHeap& heap, std::uint64_t seed) {
@@ -113,7 +127,7 @@ class SceneBench {
       times.first = first.wall_ms();
     }
     const PoseCheck check = context_.checker->check(result, seen.X_WC_believed, seen.truth);
-    const LookJudge judge{seen.truth, result, check, sought_, seen.X_WC_believed};
+    const LookJudge judge{seen.truth, result, check, sought_, ambiguous_, seen.X_WC_believed};
     for (std::size_t p = 0; p < sought_.size(); ++p) {
       PerceptionRow& row = rows_[k * sought_.size() + p];
       row.looks.push_back(judge.of_part(p, seed));
@@ -126,6 +140,8 @@ class SceneBench {
   Scenario scenario_;
   TrialContext context_;
   std::vector<Part> sought_;
+  std::vector<AmbiguousViews> views_;  ///< of the parts sought
+  std::vector<bool> ambiguous_;        ///< instances of the present look
   std::vector<Contender> contenders_;
   int looks_ = 0;
   std::vector<PerceptionRow> rows_;

@@ -24,10 +24,10 @@ Rate over_heaps(const PerceptionRow& row, ClusterCount LookScore::*counter, cons
                  cluster_bootstrap(piles, Seed{}.child("bench perception").child(name)));
 }
 
-Rate first_right(const PerceptionRow& row, bool flagged_too) {
+Rate first_right(const PerceptionRow& row, bool clear_only) {
   std::size_t hits = 0, total = 0;
   for (const LookScore& look : row.looks) {
-    if (!look.top1 || (look.top1_ambiguous && !flagged_too)) continue;
+    if (!look.top1 || (clear_only && !look.top1_in_clear_view)) continue;
     ++total;
     hits += *look.top1 ? 1 : 0;
   }
@@ -67,9 +67,11 @@ RowFigures figures_of(const PerceptionRow& row) {
   out.recall_partly = over_heaps(row, &LookScore::recall_partly, "recall_partly");
   out.recall_tight = over_heaps(row, &LookScore::recall_tight, "recall_tight");
   out.precision = over_heaps(row, &LookScore::precision, "precision");
-  out.unflagged = over_heaps(row, &LookScore::unflagged, "unflagged");
-  out.top1 = first_right(row, true);
-  out.top1_unflagged = first_right(row, false);
+  out.recall_clear = over_heaps(row, &LookScore::recall_clear, "recall_clear");
+  out.precision_clear = over_heaps(row, &LookScore::precision_clear, "precision_clear");
+  out.precision_sure = over_heaps(row, &LookScore::precision_sure, "precision_sure");
+  out.top1 = first_right(row, false);
+  out.top1_clear = first_right(row, true);
   add_errors(row, out);
   for (double LookTimes::*which : {&LookTimes::total, &LookTimes::cpu, &LookTimes::first, &LookTimes::preprocess,
                                    &LookTimes::voting, &LookTimes::verification, &LookTimes::icp})

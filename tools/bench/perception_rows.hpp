@@ -12,9 +12,9 @@ namespace binpick {
 
 /// A row's figures. SI but for the times in ms; NaN where nothing was measured.
 struct RowFigures {
-  Rate recall, recall_partly, recall_tight;  ///< cluster bootstrap over heaps
-  Rate precision, unflagged;                 ///< of all estimates; of those not flagged as ambiguous
-  Rate top1, top1_unflagged;                 ///< Wilson: one a heap
+  Rate recall, recall_clear, recall_partly, recall_tight;  ///< cluster bootstrap over heaps
+  Rate precision, precision_clear, precision_sure;         ///< the same
+  Rate top1, top1_clear;                                   ///< Wilson: one a heap
   double translation_median = 0, translation_p95 = 0, lateral_median = 0, abs_z_median = 0, z_bias = 0;
   double rotation_median = 0, rotation_p95 = 0;
   LookTimes median;

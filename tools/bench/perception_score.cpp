@@ -41,6 +41,7 @@ MissedInstance missed_instance(const LookJudge& look, std::size_t index) {
   missed.X_CP = look.X_WC.inverse() * instance.X_WP;
   missed.visible_fraction = instance.visible_fraction;
   missed.visible_pixels = instance.visible_pixels;
+  missed.ambiguous_view = look.ambiguous[index];
   missed.nearest_mssd = missed.nearest_score = kNan;
   for (const MatchedEstimate& e : look.check.estimates) {
     if (e.instance != index || !(std::isnan(missed.nearest_mssd) || e.error.mssd < missed.nearest_mssd)) continue;
@@ -63,6 +64,7 @@ WrongEstimate wrong_estimate(const LookJudge& look, const MatchedEstimate& e) {
   wrong.body = instance.body;
   wrong.visible_fraction = instance.visible_fraction;
   wrong.visible_pixels = instance.visible_pixels;
+  wrong.ambiguous_view = look.ambiguous[*e.instance];
   wrong.duplicate = e.error.mssd < kRightShare * look.parts[estimate.part].diameter;
   return wrong;
 }
@@ -87,6 +89,7 @@ void add_instances(const LookJudge& look, std::size_t part, LookScore& score) {
     }
     count(score.recall, found[i].right);
     count(score.recall_tight, found[i].tight);
+    if (!look.ambiguous[i]) count(score.recall_clear, found[i].right);
     score.found_by_pixels.push_back({instance.visible_pixels, found[i].right});
     if (!found[i].right) score.missed.push_back(missed_instance(look, i));
   }
@@ -95,12 +98,14 @@ void add_instances(const LookJudge& look, std::size_t part, LookScore& score) {
 void add_estimates(const LookJudge& look, std::size_t part, LookScore& score) {
   for (const MatchedEstimate& e : look.check.estimates) {
     if (look.result.estimates[e.estimate].part != part) continue;
-    const bool ambiguous = look.result.estimates[e.estimate].ambiguous;
-    if (!score.top1) score.top1 = e.right, score.top1_ambiguous = ambiguous;
+    const bool flagged = look.result.estimates[e.estimate].ambiguous;
+    const bool clear = !e.instance || !look.ambiguous[*e.instance];
+    if (!score.top1) score.top1 = e.right, score.top1_in_clear_view = clear;
     if (e.ignored) continue;
     count(score.precision, e.right);
-    if (!ambiguous) count(score.unflagged, e.right);
-    score.scored.push_back({e.score, e.right, ambiguous});
+    if (clear) count(score.precision_clear, e.right);
+    if (!flagged) count(score.precision_sure, e.right);
+    score.scored.push_back({e.score, e.right, flagged});
     if (e.right)
       score.right.push_back(right_estimate(look, e));
     else

@@ -18,6 +18,7 @@ struct MissedInstance {
   Pose X_CP = Pose::Identity();
   double visible_fraction = 0;
   int visible_pixels = 0;
+  bool ambiguous_view = false;
   double nearest_mssd = 0;   ///< m, of the nearest estimate to which no other instance is nearer; NaN: none
   double nearest_score = 0;  ///< its score
 };
@@ -27,7 +28,8 @@ struct WrongEstimate {
   std::uint64_t seed = 0;
   std::size_t rank = 0;  ///< 0: the first of the whole result
   double score = 0;
-  bool ambiguous = false;  ///< flagged by the estimator
+  bool ambiguous = false;       ///< flagged by the estimator
+  bool ambiguous_view = false;  ///< the nearest instance's view does not hold the answer
   Pose X_CP = Pose::Identity();
   std::optional<std::size_t> body;  ///< of the nearest instance
   PoseError error;                  ///< against it
@@ -52,13 +54,15 @@ struct ScoredEstimate {
 
 struct LookScore {
   std::uint64_t seed = 0;
-  ClusterCount recall;          ///< instances visible >= 0.5
-  ClusterCount recall_partly;   ///< 0.3 .. 0.5
-  ClusterCount recall_tight;    ///< >= 0.5, at 0.05 diameter
-  ClusterCount precision;       ///< estimates that count
-  ClusterCount unflagged;       ///< of those, not flagged as ambiguous
-  std::optional<bool> top1;     ///< is the first estimate of this part right? Empty: nothing visible, nothing said
-  bool top1_ambiguous = false;  ///< it was flagged
+  ClusterCount recall;             ///< instances visible >= 0.5
+  ClusterCount recall_clear;       ///< of those, whose view holds the answer
+  ClusterCount recall_partly;      ///< 0.3 .. 0.5
+  ClusterCount recall_tight;       ///< >= 0.5, at 0.05 diameter
+  ClusterCount precision;          ///< estimates that count
+  ClusterCount precision_clear;    ///< of those, whose nearest instance is not seen ambiguously
+  ClusterCount precision_sure;     ///< of those that count, not flagged as ambiguous by the estimator
+  std::optional<bool> top1;        ///< is the first estimate of this part right? Empty: nothing visible, nothing said
+  bool top1_in_clear_view = true;  ///< its nearest instance is not seen ambiguously
   std::vector<RightEstimate> right;
   std::vector<MissedInstance> missed;
   std::vector<WrongEstimate> wrong;
@@ -72,6 +76,7 @@ struct LookJudge {
   const EstimateResult& result;
   const PoseCheck& check;
   const std::vector<Part>& parts;
+  const std::vector<bool>& ambiguous;  ///< by instance: its true view does not hold the answer
   Pose X_WC;
   LookScore of_part(std::size_t part, std::uint64_t seed) const;
 };

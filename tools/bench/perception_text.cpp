@@ -53,6 +53,7 @@ Json missed_json(const MissedInstance& m) {
           {"X_CP", pose_json(m.X_CP)},
           {"visible_fraction", m.visible_fraction},
           {"visible_pixels", m.visible_pixels},
+          {"ambiguous_view", m.ambiguous_view},
           {"nearest_mssd_m", number_json(m.nearest_mssd)},
           {"nearest_score", number_json(m.nearest_score)}};
 }
@@ -61,7 +62,8 @@ Json wrong_json(const WrongEstimate& w) {
   return {{"seed", w.seed},
           {"rank", w.rank},
           {"score", w.score},
-          {"ambiguous", w.ambiguous},
+          {"flagged_ambiguous", w.ambiguous},
+          {"ambiguous_view", w.ambiguous_view},
           {"X_CP", pose_json(w.X_CP)},
           {"nearest_instance", w.body ? Json(*w.body) : Json()},
           {"mssd_m", number_json(w.error.mssd)},
@@ -96,9 +98,11 @@ void add_figures(const RowFigures& f, Json& out) {
   out["recall_partly_visible"] = rate_json(f.recall_partly, "visible", "found");
   out["recall_tight"] = rate_json(f.recall_tight, "visible", "found");
   out["precision"] = rate_json(f.precision, "counted", "right");
-  out["precision_unambiguous"] = rate_json(f.unflagged, "counted", "right");
+  out["recall_clear_views"] = rate_json(f.recall_clear, "visible", "found");
+  out["precision_clear_views"] = rate_json(f.precision_clear, "counted", "right");
+  out["precision_unflagged"] = rate_json(f.precision_sure, "counted", "right");
   out["top1"] = rate_json(f.top1, "scenes", "right");
-  out["top1_unambiguous"] = rate_json(f.top1_unflagged, "scenes", "right");
+  out["top1_clear_views"] = rate_json(f.top1_clear, "scenes", "right");
   out["translation_median_m"] = number_json(f.translation_median);
   out["translation_p95_m"] = number_json(f.translation_p95);
   out["lateral_median_m"] = number_json(f.lateral_median);
@@ -164,17 +168,17 @@ std::string line_of(const MissedInstance& m) {
                           m.body, m.visible_fraction, m.visible_pixels, pose_text(m.X_CP).c_str());
   if (!std::isnan(m.nearest_mssd))
     line += text("; nearest estimate: mssd %.1f mm, score %.2f", 1e3 * m.nearest_mssd, m.nearest_score);
-  return line + "\n";
+  return line + (m.ambiguous_view ? "; ambiguous view\n" : "\n");
 }
 
 std::string line_of(const WrongEstimate& w) {
   std::string line = text("seed %llu wrong   rank %zu score %.2f%s %s", static_cast<unsigned long long>(w.seed), w.rank,
-                          w.score, w.ambiguous ? " ambiguous" : "", pose_text(w.X_CP).c_str());
+                          w.score, w.ambiguous ? " flagged" : "", pose_text(w.X_CP).c_str());
   if (w.body)
     line += text("; %s #%zu: mssd %.1f mm, off %.1f mm %.0f deg, visible %.2f, %d px",
                  w.duplicate ? "second of" : "nearest", *w.body, 1e3 * w.error.mssd, 1e3 * w.error.translation,
                  kDegrees * w.error.rotation, w.visible_fraction, w.visible_pixels);
-  return line + "\n";
+  return line + (w.ambiguous_view ? "; ambiguous view\n" : "\n");
 }
 
 }  // namespace
