@@ -94,9 +94,10 @@ ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const Ppf
 }
 
 std::vector<PoseHypothesis> voted_poses(const ScenePoints& points, const PreparedPart& part,
-                                        const PpfSettings& settings) {
+                                        const PpfSettings& settings, VoteRun run) {
+  run.threads = points.threads;
   const auto voted = [&](const PointCloud& points_C, const PairTable& table) {
-    return clusters_of(vote(points_C, table, part.diameter, settings.voting, points.threads), part, settings);
+    return clusters_of(vote(points_C, table, part.diameter, settings.voting, run), part, settings);
   };
   std::vector<PoseHypothesis> poses = voted(points.surface_C, part.table);
   for (PoseHypothesis& pose : voted(points.edges_C, part.edge_table)) poses.push_back(pose);

@@ -32,7 +32,7 @@ ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const Ppf
 
 /// Poses voted for by surface points and by edges, clustered, the best of each kind (paper 4.1).
 std::vector<PoseHypothesis> voted_poses(const ScenePoints& points, const PreparedPart& part,
-                                        const PpfSettings& settings);
+                                        const PpfSettings& settings, VoteRun run = {});
 
 /// Of those, what the scene bears out best, from every region some (paper 4.2).
 std::vector<PoseHypothesis> verified_poses(const Scene& scene, const PreparedPart& part,

@@ -11,7 +11,9 @@
 namespace binpick {
 namespace {
 
-constexpr int kRim = 2;  // px about an explained pixel that count as explained, too
+constexpr int kRim = 2;           // px about an explained pixel that count as explained, too
+constexpr int kShares = 8;        // of the references, when few poses are enough
+constexpr std::size_t kWave = 4;  // hypotheses refined at a time then
 
 class Stopwatch {
  public:
@@ -101,6 +103,74 @@ bool PpfEstimator::settle(const Scene& scene, std::vector<Candidate>& standing) 
   return changed;
 }
 
+/// What can stand together of the candidates, each tried against its rivals.
+std::vector<Candidate> PpfEstimator::stand(const Scene& scene, std::vector<Candidate> candidates) const {
+  std::vector<const SurfaceModel*> models;
+  for (const PreparedPart& p : parts_) models.push_back(&p.surface);
+  candidates = resolve_conflicts(std::move(candidates), models, scene, settings_.accept);
+  if (settle(scene, candidates)) candidates = resolve_conflicts(std::move(candidates), models, scene, settings_.accept);
+  return candidates;
+}
+
+std::vector<Candidate> PpfEstimator::all_poses(const Scene& scene, StageTimes& wall) const {
+  std::vector<Candidate> standing;
+  for (int round = 0; round < settings_.search.rounds; ++round) {
+    const std::size_t before = standing.size();
+    const Scene rest = unexplained(scene, standing);
+    for (Candidate& c : search(rest, wall)) standing.push_back(std::move(c));
+    Stopwatch stage;
+    standing = stand(scene, std::move(standing));
+    wall.verification += stage.lap();
+    if (standing.size() == before) break;  // nothing new to look past
+  }
+  return standing;
+}
+
+bool PpfEstimator::enough(const std::vector<Candidate>& standing) const {
+  const auto sure = std::count_if(standing.begin(), standing.end(), [&](const Candidate& c) {
+    return !c.ambiguous && c.check.score() >= settings_.search.sure;
+  });
+  return sure >= settings_.search.enough;
+}
+
+/// A few hypotheses at a time, best first, until enough poses stand. True when they do.
+bool PpfEstimator::refine_in_waves(const Scene& scene, std::size_t part, const std::vector<PoseHypothesis>& poses,
+                                   std::vector<Candidate>& standing) const {
+  for (std::size_t k = 0; k < poses.size(); k += kWave) {
+    const std::size_t end = std::min(poses.size(), k + kWave);
+    const std::vector<PoseHypothesis> wave(poses.begin() + static_cast<std::ptrdiff_t>(k),
+                                           poses.begin() + static_cast<std::ptrdiff_t>(end));
+    const std::size_t before = standing.size();
+    for (Candidate& c : refined_poses(scene, parts_[part], wave, settings_)) {
+      c.part = part;
+      standing.push_back(std::move(c));
+    }
+    if (standing.size() == before) continue;
+    standing = stand(scene, std::move(standing));
+    if (enough(standing)) return true;
+  }
+  return false;
+}
+
+std::vector<Candidate> PpfEstimator::first_poses(const Scene& scene, StageTimes& wall) const {
+  Stopwatch stage;
+  std::vector<ScenePoints> points;
+  for (const PreparedPart& part : parts_) points.push_back(scene_points(scene, part, settings_));
+  wall.preprocess += stage.lap();
+  std::vector<Candidate> standing;
+  for (int share = 0; share < kShares; ++share)
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      std::vector<PoseHypothesis> poses = voted_poses(points[i], parts_[i], settings_, {1, share, kShares});
+      wall.voting += stage.lap();
+      poses = verified_poses(scene, parts_[i], poses, settings_);
+      wall.verification += stage.lap();
+      const bool done = refine_in_waves(scene, i, poses, standing);
+      wall.icp += stage.lap();
+      if (done) return standing;
+    }
+  return standing;
+}
+
 void PpfEstimator::prepare(std::span<const Part> parts) {
   parts_.clear();
   for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_));
@@ -111,24 +181,11 @@ EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const {
   EstimateResult result;
   Stopwatch total, stage;
   double thinnest = parts_.front().thinnest;
-  std::vector<const SurfaceModel*> models;
-  for (const PreparedPart& p : parts_) {
-    thinnest = std::min(thinnest, p.thinnest);
-    models.push_back(&p.surface);
-  }
+  for (const PreparedPart& p : parts_) thinnest = std::min(thinnest, p.thinnest);
   const Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest);
   result.wall.preprocess = stage.lap();
-  std::vector<Candidate> standing;
-  for (int round = 0; round < settings_.search.rounds; ++round) {
-    const std::size_t before = standing.size();
-    const Scene rest = unexplained(scene, standing);
-    for (Candidate& c : search(rest, result.wall)) standing.push_back(std::move(c));
-    stage.lap();
-    standing = resolve_conflicts(std::move(standing), models, scene, settings_.accept);
-    if (settle(scene, standing)) standing = resolve_conflicts(std::move(standing), models, scene, settings_.accept);
-    result.wall.verification += stage.lap();
-    if (standing.size() == before) break;  // nothing new to look past
-  }
+  std::vector<Candidate> standing =
+      settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);
   std::stable_partition(standing.begin(), standing.end(), [](const Candidate& c) { return !c.ambiguous; });
   for (const Candidate& c : standing) result.estimates.push_back(to_estimate(c, parts_[c.part].symmetry));
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;

@@ -32,6 +32,12 @@ class PpfEstimator : public PoseEstimator {
  private:
   std::vector<Candidate> search(const Scene& scene, StageTimes& wall) const;
   bool settle(const Scene& scene, std::vector<Candidate>& standing) const;
+  std::vector<Candidate> stand(const Scene& scene, std::vector<Candidate> candidates) const;
+  std::vector<Candidate> all_poses(const Scene& scene, StageTimes& wall) const;
+  std::vector<Candidate> first_poses(const Scene& scene, StageTimes& wall) const;  ///< search.enough
+  bool refine_in_waves(const Scene& scene, std::size_t part, const std::vector<PoseHypothesis>& poses,
+                       std::vector<Candidate>& standing) const;
+  bool enough(const std::vector<Candidate>& standing) const;
   PpfSettings settings_;
   std::vector<PreparedPart> parts_;
 };

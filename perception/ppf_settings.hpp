@@ -19,6 +19,7 @@ struct SearchConfig {
   int refined = 150;              // of those, refined coarsely
   int regional = 10;              // of those, at most so many whose centres lie in one region of half a diameter
   int rounds = 2;                 // the second one looks at what the first left unexplained
+  double sure = 0.5;              // score from which a pose counts as one of those
   int enough = 0;                 // accepted poses after which the search stops; 0: all that can be found
   int finished = 50;              // of those, refined finely with the silhouette
   double cluster_distance = 0.1;  // of the diameter
@@ -30,6 +31,7 @@ struct SearchConfig {
     v.field("refined", refined, "of those, refined coarsely");
     v.field("regional", regional, "of those, at most so many in one region of half a diameter");
     v.field("rounds", rounds, "searches; each further one looks at what is still unexplained");
+    v.field("sure", sure, Unit::kNone, "score from which a pose counts towards `enough`");
     v.field("enough", enough, "poses that are enough: the search stops early; 0: all that can be found");
     v.field("finished", finished, "of those, refined finely");
     v.field("cluster_distance", cluster_distance, Unit::kNone, "poses nearer than this are one, of the diameter");
@@ -39,6 +41,7 @@ struct SearchConfig {
   void validate() const {
     if (clusters < 1 || refined < 1 || regional < 1 || finished < 1 || rounds < 1)
       throw SpecError("search.clusters, refined, regional, finished, rounds: must be at least 1");
+    if (!(sure >= 0 && sure <= 1)) throw SpecError("search.sure: must lie between 0 and 1");
     if (enough < 0) throw SpecError("search.enough: must not be negative");
     if (!(cluster_distance > 0 && cluster_distance <= 1))
       throw SpecError("search.cluster_distance: must lie between 0 and 1");

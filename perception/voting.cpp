@@ -125,7 +125,7 @@ Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, 
 }
 
 std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
-                                 const VotingConfig& config, int threads) {
+                                 const VotingConfig& config, VoteRun run) {
   BP_CHECK(scene_C.points.empty() || scene_C.has_normals());
   std::vector<PoseHypothesis> found;
   if (scene_C.points.empty() || table.references().empty()) return found;
@@ -136,12 +136,13 @@ std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& tab
   const double radius = config.pair_radius * diameter;
   const PointColumns columns(points, static_cast<float>(radius / 4));
   const auto step = static_cast<std::size_t>(config.reference_step);
-  const std::size_t references = (points.size() + step - 1) / step;
+  const auto first = static_cast<std::size_t>(run.first), of = static_cast<std::size_t>(run.of);
+  const std::size_t all = (points.size() + step - 1) / step, references = all > first ? (all - first - 1) / of + 1 : 0;
   std::vector<std::vector<PoseHypothesis>> parts((references + kChunk - 1) / kChunk);
-  parallel_for(parts.size(), threads, [&](std::size_t part) {
+  parallel_for(parts.size(), run.threads, [&](std::size_t part) {
     Voter voter(columns, table, radius, config);
     for (std::size_t i = part * kChunk; i < std::min(references, (part + 1) * kChunk); ++i) {
-      const OrientedPoint& reference = points[i * step];
+      const OrientedPoint& reference = points[(first + i * of) * step];
       for (const Peak& peak : voter.peaks(reference))
         parts[part].push_back(
             {pose_from_vote(reference, table.references()[peak.row], peak.column * (2 * std::numbers::pi / kAngles)),

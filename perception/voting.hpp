@@ -33,9 +33,16 @@ struct PoseHypothesis {
   double votes = 0;
 };
 
-/// Peaks of all references, in the order of the references. Both clouds carry normals.
+/// How the references are gone through: every `of`-th, beginning with number `first` (a search may begin with some of
+/// them), on so many threads; their number changes no bit.
+struct VoteRun {
+  int threads = 1;
+  int first = 0, of = 1;
+};
+
+/// Peaks of the references, in the order of the references. Both clouds carry normals.
 std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& table, double diameter,
-                                 const VotingConfig& config, int threads = 1);
+                                 const VotingConfig& config, VoteRun run = {});
 
 /// The pose that lays a model reference and its pair onto a scene reference: alpha = scene angle - model angle (rad).
 Pose pose_from_vote(const OrientedPoint& scene_C, const OrientedPoint& model_P, double alpha);

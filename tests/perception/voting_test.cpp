@@ -81,10 +81,10 @@ TEST(Voting, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
   const VotingConfig config = exact_config();
   const PairTable table(model, Symmetry(), config.quantiser(0.1), 1e-4);
-  const auto one = vote(scene, table, 0.1, config, 1);
+  const auto one = vote(scene, table, 0.1, config);
   EXPECT_GT(one.size(), 150u);
   for (const int threads : {2, 3, 7}) {
-    const auto more = vote(scene, table, 0.1, config, threads);
+    const auto more = vote(scene, table, 0.1, config, {threads});
     ASSERT_EQ(more.size(), one.size()) << threads;
     for (std::size_t i = 0; i < one.size(); ++i) {
       ASSERT_EQ(more[i].votes, one[i].votes) << threads;
