@@ -94,10 +94,18 @@ std::vector<Candidate> PpfEstimator::search(const Scene& scene, StageTimes& wall
 /// Every pose against what the view might take for it. True when one was changed.
 bool PpfEstimator::settle(const Scene& scene, std::vector<Candidate>& standing) const {
   bool changed = false;
+  std::vector<std::uint8_t> taken(scene.depth.size(), 0);
+  const auto count = [&](const Candidate& c, int by) {
+    for (const std::uint32_t i : c.check.explained) taken[i] = static_cast<std::uint8_t>(taken[i] + by);
+  };
+  for (const Candidate& c : standing) count(c, 1);
   for (Candidate& c : standing) {
     if (c.settled) continue;
     const PreparedPart& part = parts_[c.part];
-    changed |= settle_rivals(scene, part.surface, part.overlaps, {settings_.rivals, settings_.icp, settings_.check}, c);
+    count(c, -1);
+    changed |=
+        settle_rivals(scene, part.surface, part.overlaps, {settings_.rivals, settings_.icp, settings_.check}, taken, c);
+    count(c, 1);
     c.settled = true;
   }
   return changed;

@@ -51,9 +51,19 @@ bool stayed(const Pose& refined, const Pose& put, const SurfaceModel& model) {
   return true;
 }
 
-/// Pixels that speak for a pose, less those against it. The depth alone counts: on a narrow strip of a face seen at a
-/// grazing angle, which is what often tells two twins apart, the scene has no normal to trust.
-double evidence(const ViewCheck& check) { return check.inliers + check.off - 2.0 * check.through; }
+/// What speaks for a pose. The depth alone counts: on a narrow strip of a face seen at a grazing angle, which is what
+/// often tells two twins apart, the scene has no normal to trust.
+struct Evidence {
+  double for_it = 0;     ///< pixels that agree and that no other pose explains, less twice those seen through
+  double of_others = 0;  ///< pixels that agree, but belong to another pose
+};
+
+Evidence evidence(const ViewCheck& check, const std::vector<std::uint8_t>& taken) {
+  Evidence e;
+  for (const std::uint32_t i : check.explained) (taken[i] == 0 ? e.for_it : e.of_others) += 1;
+  e.for_it += check.off - 2.0 * check.through;
+  return e;
+}
 
 }  // namespace
 
@@ -70,7 +80,7 @@ void RivalConfig::validate() const {
 }
 
 bool settle_rivals(const Scene& scene, const SurfaceModel& model, const std::vector<SelfOverlap>& overlaps,
-                   const RivalSettings& settings, Candidate& candidate) {
+                   const RivalSettings& settings, const std::vector<std::uint8_t>& taken, Candidate& candidate) {
   const auto z = static_cast<float>((candidate.fit.X_CP * model.center().cast<double>()).z());
   const float near = depth_tolerance(scene, z, settings.check);
   const std::vector<Eigen::Vector3f> points_P = explained_points(scene, candidate);
@@ -83,15 +93,16 @@ bool settle_rivals(const Scene& scene, const SurfaceModel& model, const std::vec
     if (!stayed(rival.fit.X_CP, X_CP * overlap.T, model)) continue;
     if (!fits_bin(scene, model, rival.fit.X_CP, settings.check)) continue;
     rival.check = check_view(scene, model, rival.fit.X_CP, settings.check);
-    const double lead = evidence(rival.check) - evidence(candidate.check);
-    const double clear = settings.rivals.least_difference * std::max(candidate.check.inliers, rival.check.inliers);
-    if (lead < -clear) continue;
+    const Evidence now = evidence(candidate.check, taken), then = evidence(rival.check, taken);
+    const double lead = then.for_it - now.for_it;
+    const double clear = settings.rivals.least_difference * candidate.check.inliers;
+    if (lead < -clear || then.of_others > now.of_others + clear) continue;
     rival.ambiguous = lead <= clear;
-    if (lead > 0) {
-      candidate = rival;
-      changed = true;
-    }
     candidate.ambiguous = rival.ambiguous;
+    // Between equals the choice is free, and the one that stands better against other poses is the practical one.
+    if (rival.ambiguous && rival.check.score() <= candidate.check.score()) continue;
+    candidate = rival;
+    changed = true;
   }
   return changed;
 }

@@ -5,6 +5,7 @@
 // C.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "perception/self_overlap.hpp"
@@ -26,8 +27,9 @@ struct RivalSettings {
   const CheckConfig& check;
 };
 
-/// Puts the better pose into the candidate and says whether it is ambiguous. True when the pose was changed.
+/// Puts the better pose into the candidate and says whether it is ambiguous. `taken`: of every pixel, how many other
+/// poses explain it. True when the pose was changed.
 bool settle_rivals(const Scene& scene, const SurfaceModel& model, const std::vector<SelfOverlap>& overlaps,
-                   const RivalSettings& settings, Candidate& candidate);
+                   const RivalSettings& settings, const std::vector<std::uint8_t>& taken, Candidate& candidate);
 
 }  // namespace binpick

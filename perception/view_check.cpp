@@ -7,8 +7,9 @@
 namespace binpick {
 namespace {
 
-constexpr int kBeyond = 5;          // px outside the outline: past fattening and mixed pixels
-constexpr float kSteepest = 0.01f;  // m per px, slope that is carried on outside the outline
+constexpr int kBeyond = 5;             // px outside the outline: past fattening and mixed pixels
+constexpr float kSteepest = 0.01f;     // m per px, slope that is carried on outside the outline
+constexpr double kSettledLead = 0.05;  // of the score: a pose that stood after an earlier search yields to a clear gain
 
 /// Depth change from a pixel to its steepest neighbour inside the part.
 float slope(const PartView& view, int u, int v) {
@@ -135,8 +136,9 @@ bool accepted(const ViewCheck& check, const AcceptConfig& config) {
 std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates,
                                          const std::vector<const SurfaceModel*>& models, const Scene& scene,
                                          const AcceptConfig& config) {
+  const auto rank = [](const Candidate& c) { return c.check.score() + (c.settled ? kSettledLead : 0); };
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.check.score() > b.check.score(); });
+                   [&](const Candidate& a, const Candidate& b) { return rank(a) > rank(b); });
   std::vector<char> claimed(scene.depth.size(), 0);
   std::vector<Candidate> standing;
   for (Candidate& c : candidates) {

@@ -79,7 +79,8 @@ TEST(RivalPoses, ATwinThatTheSceneContradictsIsReplaced) {
   const RivalConfig rivals;
   const IcpConfig icp;
   const CheckConfig check;
-  EXPECT_TRUE(settle_rivals(scene, model, overlaps, {rivals, icp, check}, wrong));
+  EXPECT_TRUE(settle_rivals(scene, model, overlaps, {rivals, icp, check}, std::vector<std::uint8_t>(scene.depth.size()),
+                            wrong));
   EXPECT_FALSE(wrong.ambiguous);
   EXPECT_LT(mssd(bracket, wrong.fit.X_CP, X_CP, hull_vertices(bracket.mesh_P)), 0.002);
 }
