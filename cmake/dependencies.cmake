@@ -21,6 +21,12 @@ find_package(embree 3 REQUIRED)
 
 # Single OpenCV modules, never ${OpenCV_LIBS}: imgcodecs, videoio and ximgproc pull GPL libraries in Debian.
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d)
+# Peers of the benchmark only (tools/bench/peers): a single module each, and neither need be there.
+find_package(OpenCV 4 QUIET COMPONENTS core surface_matching)
+if(TARGET opencv_surface_matching)
+  set(BINPICK_OPENCV_SURFACE_MATCHING opencv_surface_matching)
+endif()
+find_library(BINPICK_PCL_REGISTRATION NAMES pcl_registration)
 
 # Plain PCL libraries by name. Neither ${PCL_LIBRARIES} nor PCL's own imported targets: both drag VTK, Qt and MPI in even
 # for the core components (and with VTK comes GDAL, Poppler and x264).

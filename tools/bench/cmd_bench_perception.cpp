@@ -7,6 +7,7 @@
 #include "core/file_io.hpp"
 #include "core/quantity.hpp"
 #include "tools/bench/bench_commands.hpp"
+#include "tools/bench/peers/peer.hpp"
 #include "tools/bench/perception_ablation.hpp"
 #include "tools/bench/perception_calibration.hpp"
 #include "tools/bench/perception_rows.hpp"
@@ -19,7 +20,7 @@ struct Options {
   std::vector<std::string> parts, estimators, files, settings;
   std::string scenes_folder = "scenes", seeds, json, calibration, bin_offset, bin_turn;
   int scenes = 10;
-  bool failures = false, ablation = false;
+  bool failures = false, ablation = false, peers = false;
 };
 
 /// The shipped scene of a part: scenes/<part>_bin.yaml, or with the first word of the part's name.
@@ -44,6 +45,9 @@ std::vector<ContenderSpec> contenders(const Options& options) {
   if (specs.empty()) specs.push_back(parse_contender("ppf"));
   for (ContenderSpec& spec : specs)
     spec.settings.insert(spec.settings.end(), options.settings.begin(), options.settings.end());
+  if (!options.peers) return specs;
+  if (peer_registry().empty()) throw SpecError("--peers: this program was built without OpenCV's and PCL's matchers");
+  for (const EstimatorEntry& peer : peer_registry()) specs.push_back(parse_contender(peer.name));
   return specs;
 }
 
@@ -94,6 +98,9 @@ void add_options(CLI::App& command, Options& o) {
   command.add_option("--cache", o.bench.cache, "folder in which heaps at rest are kept");
   command.add_flag("--heaps-only", o.bench.heaps_only, "drop the heaps into --cache and look at nothing");
   command.add_flag("--failures", o.failures, "list every missed instance and every wrong estimate");
+  command.add_flag("--peers", o.peers, "OpenCV's and PCL's matchers, too, as far as they were built in");
+  command.add_option("--peer-scenes", o.bench.peer_scenes, "heaps that they are asked about")
+      ->check(CLI::Range(1, 100000));
   command.add_flag("--ablation", o.ablation, "each step taken out alone, as Markdown");
   command.add_option("--calibration", o.calibration, "folder for the curve of the scores: CSV and picture");
   command.add_option("--json", o.json, "file for the figures");

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "evaluation/statistics.hpp"
+#include "tools/bench/peers/peer.hpp"
 
 namespace binpick {
 namespace {
@@ -41,6 +42,17 @@ bool apply_if_known(const std::string& setting, PoseEstimator& estimator) {
   }
 }
 
+bool is_peer_name(const std::string& type) {
+  const std::vector<EstimatorEntry>& peers = peer_registry();
+  return std::any_of(peers.begin(), peers.end(), [&](const EstimatorEntry& peer) { return peer.name == type; });
+}
+
+std::unique_ptr<PoseEstimator> make_any(const std::string& type) {
+  for (const EstimatorEntry& peer : peer_registry())
+    if (peer.name == type) return peer.make();
+  return make_estimator(type);
+}
+
 /// The type and the settings of a scene's `estimator:` section, kept in a file of its own.
 struct FileSection {
   std::string type = "ppf";
@@ -49,7 +61,7 @@ struct FileSection {
   void visit(ConfigVisitor& v) {
     v.field("type", type, "estimator");
     if (type == "oracle") return oracle.visit(v);
-    if (!estimator) estimator = make_estimator(type);
+    if (!estimator) estimator = make_any(type);
     estimator->visit(v);
   }
 };
@@ -63,7 +75,7 @@ std::unique_ptr<PoseEstimator> configured(const ContenderSpec& spec, OracleConfi
   FileSection section;
   section.type = spec.type;
   if (!spec.file.empty()) read_yaml_file(spec.file, [&](ConfigVisitor& v) { section.visit(v); });
-  if (section.type != "oracle" && !section.estimator) section.estimator = make_estimator(section.type);
+  if (section.type != "oracle" && !section.estimator) section.estimator = make_any(section.type);
   PoseEstimator* estimator = section.estimator.get();
   for (const std::string& setting : spec.settings)
     set(setting, [&](ConfigVisitor& v) { estimator ? estimator->visit(v) : section.oracle.visit(v); });
@@ -83,7 +95,7 @@ ContenderSpec parse_contender(const std::string& text) {
   return spec;
 }
 
-Contender::Contender(const ContenderSpec& spec) : name_(spec.name) {
+Contender::Contender(const ContenderSpec& spec) : name_(spec.name), peer_(is_peer_name(spec.type)) {
   estimator_ = configured(spec, oracle_);
   if (name_.empty()) name_ = spec.file.empty() ? spec.type : spec.file;
   if (!estimator_) return;
