@@ -1,28 +1,38 @@
 #include "perception/floor_offset.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include "perception/scene_crop.hpp"
 
 namespace binpick {
 namespace {
 
 constexpr int kBins = 121;  // over +- the largest offset
 constexpr std::size_t kFewestPixels = 300;
+constexpr double kMostPixels = 4e4;    // of the image: neighbours share their noise anyway
 constexpr double kFewestShare = 0.02;  // of the bin's pixels
 constexpr double kModeShare = 0.4;     // of the highest mode: a deeper mode this high is the floor
 constexpr double kSmoothing = 0.001;   // m, of the histogram
 constexpr double kMargin = 0.01;       // m off the walls, where they mix into the floor
 
+/// 1/z - 1/z_floor of the pixels that see the floor's place, thinned to about kMostPixels.
 std::vector<float> inverse_depth_differences(const Scene& scene, std::size_t& looked_at) {
-  std::vector<float> out;
-  looked_at = 0;
-  for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u) {
-      const float floor = floor_depth(scene, u, v, kMargin);
-      if (!(floor > 0)) continue;
-      ++looked_at;
-      if (scene.depth(u, v) > 0) out.push_back(1 / scene.depth(u, v) - 1 / floor);
-    }
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const BinRays rays = bin_rays(scene.camera, scene.X_CB);
+  const Eigen::Vector3d half = scene.bin->inner_size / 2;
+  const BinBox box{f(half.x() - kMargin), f(half.y() - kMargin)};
+  const int width = scene.depth.width(), height = scene.depth.height();
+  const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(scene.depth.size()) / kMostPixels)));
+  std::vector<float> out, row(static_cast<std::size_t>(width));
+  int rays_on_floor = 0;
+  for (int v = 0; v < height; v += stride) {
+    const int count = floor_differences({&scene.depth(0, v), v, width}, stride, rays, box, row.data(), rays_on_floor);
+    for (int k = 0; k < count; ++k)
+      if (!std::isnan(row[k])) out.push_back(row[k]);
+  }
+  looked_at = static_cast<std::size_t>(rays_on_floor);
   return out;
 }
 
@@ -48,18 +58,6 @@ double spread_about(const std::vector<float>& values, double center, double wind
 }
 
 }  // namespace
-
-float floor_depth(const Scene& scene, int u, int v, double margin) {
-  const Eigen::Vector3d ray_C = scene.camera.ray(u, v), normal_C = scene.X_CB.linear().col(2);
-  const double along = normal_C.dot(ray_C);
-  if (std::abs(along) < 1e-6) return std::numeric_limits<float>::quiet_NaN();
-  const double z = normal_C.dot(scene.X_CB.translation()) / along;
-  const Eigen::Vector3d p_B = scene.X_CB.inverse() * (z * ray_C);
-  const Eigen::Vector3d half = scene.bin->inner_size / 2;
-  if (!(z > 0) || std::abs(p_B.x()) > half.x() - margin || std::abs(p_B.y()) > half.y() - margin)
-    return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(z);
-}
 
 double floor_offset(const Scene& scene, double largest) {
   std::size_t looked_at = 0;
@@ -87,7 +85,9 @@ double floor_offset(const Scene& scene, double largest) {
     for (const float d : differences)
       if (std::abs(d - offset) < spread) sum += d, ++n;
     if (n < kFewestPixels) return 0;
-    offset = sum / static_cast<double>(n);
+    const double mean = sum / static_cast<double>(n);
+    if (std::abs(mean - offset) < 1e-7 * width) break;
+    offset = mean;
   }
   return std::abs(offset) < range ? offset : 0;
 }

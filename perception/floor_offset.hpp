@@ -7,9 +7,6 @@
 
 namespace binpick {
 
-/// Depth along a pixel's ray to the believed floor; NaN where the ray meets it outside the inner floor less `margin`.
-float floor_depth(const Scene& scene, int u, int v, double margin);
-
 /// The offset (1/m): mean about the deepest clear mode of 1/z - 1/z_floor; 0 when the floor does not show clearly
 /// or the offset exceeds `largest` (m, at the floor).
 double floor_offset(const Scene& scene, double largest);

@@ -1,50 +1,94 @@
 #include "perception/normals.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "perception/normal_kernel.hpp"
 
 namespace binpick {
 namespace {
 
-constexpr int kFewest = 6;    // neighbours for a plane
-constexpr int kLargest = 12;  // px, half window: bounds the time on very fine images
+constexpr int kRows = 16;  // a piece of work; its planes stay in the cache
 
-/// Sums of eq. 1 and 2 over the window about a pixel, without the far side of a depth jump.
-struct WindowSums {
-  int count = 0;
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+/// Depth and inverse depth of some rows, with unknown depth all around.
+class PaddedPlanes {
+ public:
+  PaddedPlanes(const Image<float>& depth, int first, int count)
+      : pitch_(depth.width() + 2 * kNormalPad), first_(first - kNormalReach) {
+    const std::size_t rows = static_cast<std::size_t>(count) + 2 * kNormalReach;
+    depth_.assign(rows * static_cast<std::size_t>(pitch_), std::numeric_limits<float>::quiet_NaN());
+    for (int v = std::max(0, first_); v < std::min(depth.height(), first_ + static_cast<int>(rows)); ++v)
+      std::copy_n(&depth(0, v), depth.width(), depth_.data() + offset(v));
+    inverse_.resize(depth_.size());
+    for (std::size_t i = 0; i < depth_.size(); ++i) inverse_[i] = 1 / depth_[i];
+  }
+  NormalRow row(int v, const std::uint8_t* wanted, int width) const {
+    return {depth_.data() + offset(v), inverse_.data() + offset(v), pitch_, wanted, v, width};
+  }
+
+ private:
+  std::ptrdiff_t offset(int v) const { return (v - first_) * pitch_ + kNormalPad; }
+  std::ptrdiff_t pitch_;
+  int first_;
+  std::vector<float> depth_, inverse_;
 };
 
-WindowSums window_sums(const Scene& scene, int u, int v, const NormalsConfig& config) {
-  const float z = scene.depth(u, v);
-  const Eigen::Vector3f p0 = scene.point(u, v, z);
-  const float radius = static_cast<float>(config.radius), jump = radius + 2 * scene.sigma(z);
-  const int half = std::clamp(static_cast<int>(radius / scene.pixel(z) + 0.5f), 2, kLargest);
-  const int step = half > 6 ? 2 : 1;
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  int n = 0;
-  for (int b = std::max(0, v - half); b <= std::min(scene.depth.height() - 1, v + half); b += step)
-    for (int a = std::max(0, u - half); a <= std::min(scene.depth.width() - 1, u + half); a += step) {
-      const float w = scene.depth(a, b);
-      if (!(std::abs(w - z) < jump)) continue;  // false for NaN too
-      const Eigen::Vector3f d = scene.point(a, b, w) - p0;
-      sum += d;
-      xx += d.x() * d.x(), xy += d.x() * d.y(), xz += d.x() * d.z();
-      yy += d.y() * d.y(), yz += d.y() * d.z(), zz += d.z() * d.z();
-      ++n;
-    }
-  WindowSums out;
-  out.count = n;
-  if (n < kFewest) return out;
-  const float inverse = 1.0f / static_cast<float>(n);
-  out.mean = sum * inverse;  // paper eq. 1, relative to the pixel's own point
-  out.covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  out.covariance = out.covariance * inverse - out.mean * out.mean.transpose();  // paper eq. 2
-  return out;
+NormalRule rule_of(const Scene& scene, const NormalsConfig& config) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const PinholeCamera& c = scene.camera;
+  return {f(c.fx),
+          f(c.fy),
+          f(c.cx),
+          f(c.cy),
+          f(config.radius),
+          f(scene.noise.constant),
+          f(scene.noise.linear),
+          f(scene.noise.quadratic)};
+}
+
+/// Eq. 1 and 2 for some rows.
+void fit_planes(Scene& scene, const NormalsConfig& config, int first, int count) {
+  const int width = scene.depth.width();
+  const PaddedPlanes planes(scene.depth, first, count);
+  const NormalRule rule = rule_of(scene, config);
+  const std::size_t padded = static_cast<std::size_t>(width) + 16;
+  std::vector<float> x(padded), y(padded), z(padded);
+  std::vector<std::uint8_t> wanted(padded, 0);
+  for (int v = first; v < first + count; ++v) {
+    std::copy_n(&scene.wanted(0, v), width, wanted.begin());
+    normals_of_row(planes.row(v, wanted.data(), width), rule, {x.data(), y.data(), z.data()});
+    for (int u = 0; u < width; ++u) scene.normals(u, v) = Eigen::Vector3f(x[u], y[u], z[u]);
+  }
+}
+
+/// Wanted pixels of a row whose normals disagree with their neighbourhood (eq. 3).
+void disagreeing(const Scene& scene, const NormalsConfig& config, int v, std::vector<std::size_t>& out) {
+  const float least = static_cast<float>(std::cos(config.agreement));
+  for (int u = 0; u < scene.depth.width(); ++u) {
+    if (!scene.wanted(u, v)) continue;
+    const Eigen::Vector3f& n = scene.normals(u, v);
+    if (n.isZero()) continue;
+    const float z = scene.depth(u, v), jump = static_cast<float>(config.radius) + 2 * scene.sigma(z);
+    const int reach = std::clamp(static_cast<int>(0.5f * static_cast<float>(config.radius) / scene.pixel(z) + 0.5f), 1,
+                                 kNormalReach / 2);
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a) {
+        const int x = u + a * reach, y = v + b * reach;
+        if ((a == 0 && b == 0) || !scene.depth.contains(x, y)) continue;
+        if (std::abs(scene.depth(x, y) - z) < jump) mean += scene.normals(x, y);
+      }
+    const float length = mean.norm();
+    if (length > 0 && n.dot(mean) < least * length)  // paper eq. 3
+      out.push_back(static_cast<std::size_t>(v) * scene.depth.width() + u);
+  }
+}
+
+std::size_t pieces_of(const Scene& scene) {
+  return (static_cast<std::size_t>(scene.depth.height()) + kRows - 1) / kRows;
 }
 
 }  // namespace
@@ -61,43 +105,22 @@ void NormalsConfig::validate() const {
 }
 
 void estimate_normals(Scene& scene, const NormalsConfig& config) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u) {
-      scene.normals(u, v).setZero();
-      if (!scene.wanted(u, v)) continue;
-      const WindowSums sums = window_sums(scene, u, v, config);
-      if (sums.count < kFewest) continue;
-      // Scaled to about one: the closed-form solver's thresholds are absolute.
-      solver.computeDirect(sums.covariance / (sums.covariance.trace() + 1e-20f));
-      Eigen::Vector3f n = solver.eigenvectors().col(0);
-      if (!n.allFinite() || n.squaredNorm() < 0.5f) continue;
-      if (n.dot(scene.point(u, v, scene.depth(u, v))) > 0) n = -n;
-      scene.normals(u, v) = n.normalized();
-    }
+  parallel_for(pieces_of(scene), scene.threads, [&](std::size_t piece) {
+    const int first = static_cast<int>(piece) * kRows;
+    fit_planes(scene, config, first, std::min(kRows, scene.depth.height() - first));
+  });
   drop_disagreeing_normals(scene, config);
 }
 
 void drop_disagreeing_normals(Scene& scene, const NormalsConfig& config) {
-  const float least = static_cast<float>(std::cos(config.agreement));
-  std::vector<std::size_t> dropped;
-  for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u) {
-      const Eigen::Vector3f& n = scene.normals(u, v);
-      if (!scene.wanted(u, v) || n.isZero()) continue;
-      const float z = scene.depth(u, v), jump = static_cast<float>(config.radius) + 2 * scene.sigma(z);
-      const int reach = std::clamp(static_cast<int>(0.5 * config.radius / scene.pixel(z) + 0.5), 1, kLargest / 2);
-      Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-      for (int b = -1; b <= 1; ++b)
-        for (int a = -1; a <= 1; ++a) {
-          const int x = u + a * reach, y = v + b * reach;
-          if ((a == 0 && b == 0) || !scene.depth.contains(x, y)) continue;
-          if (std::abs(scene.depth(x, y) - z) < jump) mean += scene.normals(x, y);
-        }
-      if (mean.squaredNorm() > 0 && n.dot(mean.normalized()) < least)  // paper eq. 3
-        dropped.push_back(static_cast<std::size_t>(v) * scene.depth.width() + u);
-    }
-  for (const std::size_t i : dropped) scene.normals[i].setZero();
+  std::vector<std::vector<std::size_t>> dropped(pieces_of(scene));
+  parallel_for(dropped.size(), scene.threads, [&](std::size_t piece) {
+    const int first = static_cast<int>(piece) * kRows;
+    for (int v = first; v < std::min(scene.depth.height(), first + kRows); ++v)
+      disagreeing(scene, config, v, dropped[piece]);
+  });
+  for (const auto& piece : dropped)
+    for (const std::size_t i : piece) scene.normals[i].setZero();
 }
 
 }  // namespace binpick

@@ -1,6 +1,7 @@
-// Surface normals of a scene (paper 3.1): plane through the neighbours (eq. 1, 2), the eigenvector of the smallest
-// eigenvalue, turned to the camera, kept only where the neighbours' normals agree (eq. 3). In an image the neighbours
-// are a window without depth jumps; in a cloud without order they come from PCL's search tree. Frame C, metres.
+// Surface normals of a scene (paper 3.1): plane through the neighbours, turned to the camera, kept only where the
+// neighbours' normals agree (eq. 3). In an image the neighbours are a window without depth jumps, and the plane is fitted
+// to the inverse depth, in which it is linear and a stereo camera's noise is even (instead of the eigenvectors of eq. 1
+// and 2); in a cloud without order they come from PCL's search tree by eq. 1 and 2. Frame C, metres.
 #pragma once
 
 #include "core/config.hpp"
@@ -17,7 +18,7 @@ struct NormalsConfig {
   void validate() const;
 };
 
-/// Normals of the wanted pixels (eq. 1-3); zero where fewer than six neighbours or the agreement fails.
+/// Normals of the wanted pixels; zero where fewer than six neighbours or the agreement fails.
 void estimate_normals(Scene& scene, const NormalsConfig& config);
 
 /// Eq. 3 alone: clears the normals of wanted pixels that disagree with their neighbourhood.

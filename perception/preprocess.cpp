@@ -6,11 +6,13 @@
 #include "core/error.hpp"
 #include "perception/floor_offset.hpp"
 #include "perception/organise_cloud.hpp"
+#include "perception/scene_crop.hpp"
 
 namespace binpick {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double kAroundBin = 0.015;  // m about the believed bin that stay in the picture: it may be off by so much
 
 void clear_bad_depth(Scene& scene) {
   for (float& z : scene.depth)
@@ -20,8 +22,9 @@ void clear_bad_depth(Scene& scene) {
 void remove_offset(Scene& scene, double offset) {
   scene.floor_offset = offset;
   if (offset == 0) return;
+  const auto off = static_cast<float>(offset);
   for (float& z : scene.depth) {
-    const float inverse = 1 / z - static_cast<float>(offset);
+    const float inverse = 1 / z - off;
     z = inverse > 0 ? 1 / inverse : kUnknown;
   }
 }
@@ -35,22 +38,27 @@ double floor_height(const Scene& scene, const PreprocessConfig& config, double t
 
 /// Pass-through (paper 3.1), less floor and walls.
 void mark_wanted(Scene& scene, const PreprocessConfig& config) {
-  const Pose X_BC = scene.X_CB.inverse();
+  if (!scene.bin) {
+    for (std::size_t i = 0; i < scene.depth.size(); ++i)
+      scene.wanted[i] = scene.depth[i] > config.near && scene.depth[i] < config.far;
+    return;
+  }
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const Eigen::Vector3d& size = scene.bin->inner_size;
+  const BinBox box{f(size.x() / 2 - config.wall_margin), f(size.y() / 2 - config.wall_margin), f(scene.floor_cut),
+                   f(size.z() + config.headroom)};
+  const BinRays rays = bin_rays(scene.camera, scene.X_CB);
   for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u) {
-      const float z = scene.depth(u, v);
-      scene.wanted(u, v) = 0;
-      if (!(z > 0)) continue;
-      if (!scene.bin) {
-        scene.wanted(u, v) = z > config.near && z < config.far;
-        continue;
-      }
-      const Eigen::Vector3d p_B = X_BC * scene.camera.unproject(u, v, z);
-      const Eigen::Vector3d half = scene.bin->inner_size / 2;
-      scene.wanted(u, v) = std::abs(p_B.x()) < half.x() - config.wall_margin &&
-                           std::abs(p_B.y()) < half.y() - config.wall_margin && p_B.z() > scene.floor_cut &&
-                           p_B.z() < scene.bin->inner_size.z() + config.headroom;
-    }
+    mark_inside({&scene.depth(0, v), v, scene.depth.width()}, rays, box, &scene.wanted(0, v));
+}
+
+void take_frame(const DepthFrame& frame, const PreprocessConfig& config, Scene& scene) {
+  const bool crop = scene.bin && !frame.depth.empty();
+  DepthFrame part =
+      crop ? cropped(frame, pixels_of_bin(frame, *scene.bin, scene.X_CB, kAroundBin, config.headroom)) : frame;
+  scene.camera = part.camera;
+  scene.depth = std::move(part.depth);
+  scene.normals = Image<Eigen::Vector3f>(scene.depth.width(), scene.depth.height(), Eigen::Vector3f::Zero());
 }
 
 }  // namespace
@@ -87,9 +95,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   scene.noise = view.noise();
   scene.threads = view.threads;
   if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
-    scene.camera = frame->camera;
-    scene.depth = frame->depth;
-    scene.normals = Image<Eigen::Vector3f>(frame->depth.width(), frame->depth.height(), Eigen::Vector3f::Zero());
+    take_frame(*frame, config, scene);
   } else {
     organise_cloud(std::get<PointCloud>(view.seen), normals, scene);
   }

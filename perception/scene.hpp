@@ -1,5 +1,6 @@
-// The frame as the stages share it: depth, normals and what of it may belong to a wanted part. A cloud becomes an image
-// of a made-up camera at its origin, so that every later stage knows one form only. Frame C, metres.
+// The frame as the stages share it: depth, normals and what of it may belong to a wanted part. Where the bin is known
+// it is the part of the frame about the bin, with a camera to match: pixels are those of the crop. A cloud becomes an
+// image of a made-up camera at its origin, so that every later stage knows one form only. Frame C, metres.
 #pragma once
 
 #include <Eigen/Core>

@@ -55,6 +55,73 @@ TEST(Normals, OfASphereAreRadial) {
     }
 }
 
+TEST(Normals, OfACylinderAreRadial) {
+  Scene scene = plane_scene({0, 0, -1}, -0.8);
+  const double radius = 0.04, z = 0.6;  // along y
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 120; ++u) {
+      const Eigen::Vector3d ray = scene.camera.ray(u, v);
+      const double a = ray.x() * ray.x() + 1, discriminant = z * z - a * (z * z - radius * radius);
+      if (discriminant > 0) scene.depth(u, v) = static_cast<float>((z - std::sqrt(discriminant)) / a);
+    }
+  estimate_normals(scene, NormalsConfig());
+  for (int v = 20; v < 100; ++v)
+    for (int u = 48; u < 72; ++u) {
+      const Eigen::Vector3d p = scene.point(u, v, scene.depth(u, v)).cast<double>();
+      ASSERT_LT(degrees_between(scene.normals(u, v), Eigen::Vector3d(p.x(), 0, p.z() - z).normalized()), 2) << u;
+    }
+}
+
+TEST(Normals, DoNotFeelTheFarSideOfAStep) {
+  const Eigen::Vector3d near = Eigen::Vector3d(0.3, -0.1, -1).normalized(), far(0, 0, -1);
+  Scene scene = plane_scene(near, near.z() * 0.5);
+  const Scene behind = plane_scene(far, -0.65);
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 120; ++u) {
+      if (u >= 60) scene.depth(u, v) = behind.depth(u, v);
+      if (u % 17 == 0 && v % 3 == 0) scene.depth(u, v) = std::nanf("");  // and holes
+    }
+  const Image<float> depth = scene.depth;
+  for (std::size_t i = 0; i < depth.size(); ++i) scene.wanted[i] = depth[i] > 0;
+  NormalsConfig config;
+  config.agreement = 3.1;  // nothing is dropped
+  estimate_normals(scene, config);
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 120; ++u) {
+      if (!scene.wanted(u, v)) {
+        ASSERT_TRUE(scene.normals(u, v).isZero()) << u << " " << v;
+        continue;
+      }
+      ASSERT_LT(degrees_between(scene.normals(u, v), u < 60 ? near : far), 0.5) << u << " " << v;
+    }
+}
+
+TEST(Normals, KeepTheNoiseOfThePlaneFitOnly) {
+  // Even noise in inverse depth on a tilted plane: the regression is unbiased, so the mean normal is the plane's.
+  const Eigen::Vector3d n = Eigen::Vector3d(0.5, 0.3, -1).normalized();
+  Scene scene = plane_scene(n, n.z() * 0.5);
+  scene.noise.constant = 0.001;
+  Rng rng(4);
+  for (float& z : scene.depth) z = static_cast<float>(1 / (1 / z + 0.003 * rng.normal()));
+  estimate_normals(scene, NormalsConfig());
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  for (int v = 10; v < 110; ++v)
+    for (int u = 10; u < 110; ++u) mean += scene.normals(u, v);
+  EXPECT_LT(degrees_between(mean.normalized(), n), 0.5);
+}
+
+TEST(Normals, AreTheSameBitsOnAnyNumberOfThreads) {
+  const HeapScene photo = testing_scene::make_scene(ring_part(), HeapOptions(), Seed{3}, camera_above(0.6));
+  SceneView view = photo.view;
+  const Scene one = make_scene(view, PreprocessConfig(), NormalsConfig(), 0.016);
+  for (const int threads : {2, 3}) {
+    view.threads = threads;
+    const Scene more = make_scene(view, PreprocessConfig(), NormalsConfig(), 0.016);
+    ASSERT_EQ(more.normals.size(), one.normals.size());
+    for (std::size_t i = 0; i < one.normals.size(); ++i) ASSERT_TRUE(more.normals[i] == one.normals[i]) << i;
+  }
+}
+
 TEST(Normals, ThatDisagreeWithTheirNeighboursAreDropped) {
   Scene scene = plane_scene({0, 0, -1}, -0.6);
   estimate_normals(scene, NormalsConfig());
