@@ -97,6 +97,7 @@ class SceneBench {
       row.part = sought_[p].name;
       row.sensor = sensor_.empty() ? scenario_.sensor_type : sensor_;
       row.contender = contender.name();
+      row.type = contender.type();
       row.settings = contender.settings();
       row.instances = nothing_there() ? 0 : static_cast<std::size_t>(scenario_.parts[p].count);
       row.peer = contender.is_peer();

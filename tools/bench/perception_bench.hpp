@@ -33,7 +33,9 @@ struct LookTimes {
 
 /// One contender's answers to all looks at one kind of part under one sensor.
 struct PerceptionRow {
-  std::string scene, part, sensor, contender, settings;
+  std::string scene, part, sensor, contender;
+  std::string type;           ///< of the contender
+  std::string settings;       ///< all of them, YAML
   std::size_t instances = 0;  ///< of the part in a heap
   bool peer = false;
   bool has_first = false;

@@ -71,7 +71,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// An estimator or (null) the oracle, with everything that the specification says.
-std::unique_ptr<PoseEstimator> configured(const ContenderSpec& spec, OracleConfig& oracle) {
+std::unique_ptr<PoseEstimator> configured(const ContenderSpec& spec, std::string& type, OracleConfig& oracle) {
   FileSection section;
   section.type = spec.type;
   if (!spec.file.empty()) read_yaml_file(spec.file, [&](ConfigVisitor& v) { section.visit(v); });
@@ -81,6 +81,7 @@ std::unique_ptr<PoseEstimator> configured(const ContenderSpec& spec, OracleConfi
     set(setting, [&](ConfigVisitor& v) { estimator ? estimator->visit(v) : section.oracle.visit(v); });
   estimator ? estimator->validate() : section.oracle.validate();
   oracle = section.oracle;
+  type = section.type;
   return std::move(section.estimator);
 }
 
@@ -95,12 +96,13 @@ ContenderSpec parse_contender(const std::string& text) {
   return spec;
 }
 
-Contender::Contender(const ContenderSpec& spec) : name_(spec.name), peer_(is_peer_name(spec.type)) {
-  estimator_ = configured(spec, oracle_);
+Contender::Contender(const ContenderSpec& spec) : name_(spec.name) {
+  estimator_ = configured(spec, type_, oracle_);
+  peer_ = is_peer_name(type_);
   if (name_.empty()) name_ = spec.file.empty() ? spec.type : spec.file;
   if (!estimator_) return;
   OracleConfig unused;
-  std::unique_ptr<PoseEstimator> first = configured(spec, unused);
+  std::unique_ptr<PoseEstimator> first = configured(spec, type_, unused);
   if (apply_if_known("search.enough=1", *first)) first_ = std::move(first);
 }
 

@@ -34,6 +34,7 @@ class Contender {
   explicit Contender(const ContenderSpec& spec);
 
   const std::string& name() const { return name_; }
+  const std::string& type() const { return type_; }
   bool is_peer() const { return peer_; }
   bool reads_truth() const { return !estimator_; }
   /// All settings as YAML, for the record.
@@ -48,7 +49,7 @@ class Contender {
   EstimateResult estimate_first(const Observation& seen, Seed seed) const;
 
  private:
-  std::string name_;
+  std::string name_, type_;
   bool peer_ = false;
   std::unique_ptr<PoseEstimator> estimator_, first_;
   OracleConfig oracle_;

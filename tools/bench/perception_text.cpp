@@ -123,7 +123,7 @@ void add_figures(const RowFigures& f, Json& out) {
 /// The row of this peer for the same question.
 const PerceptionRow* peer_row(std::span<const PerceptionRow> rows, const PerceptionRow& row, const std::string& peer) {
   for (const PerceptionRow& other : rows)
-    if (other.peer && other.contender == peer && other.scene == row.scene && other.sensor == row.sensor &&
+    if (other.peer && other.type == peer && other.scene == row.scene && other.sensor == row.sensor &&
         other.part == row.part)
       return &other;
   return nullptr;
@@ -155,6 +155,27 @@ Json row_json(std::span<const PerceptionRow> rows, const PerceptionRow& row) {
     for (const WrongEstimate& w : look.wrong) out["wrong"].push_back(wrong_json(w));
   }
   out["settings"] = row.settings;
+  return out;
+}
+
+std::string one_line(std::string yaml) {
+  std::string line;
+  for (const char c : yaml) line += c == '\n' ? std::string(", ") : std::string(1, c);
+  return line.empty() ? line : line.substr(0, line.size() - 2);
+}
+
+/// How each peer was set, and how much longer it took, question by question.
+std::string peers_of(std::span<const PerceptionRow> rows) {
+  std::string out;
+  for (const PerceptionRow& peer : rows) {
+    if (!peer.peer) continue;
+    out += text("%s, %s, %s: settings %s", peer.contender.c_str(), peer.part.c_str(), peer.sensor.c_str(),
+                one_line(peer.settings).c_str());
+    for (const PerceptionRow& row : rows)
+      if (!row.peer && row.scene == peer.scene && row.sensor == peer.sensor && row.part == peer.part)
+        out += text("; %.0f x the time of %s", time_ratio(peer, row), row.contender.c_str());
+    out += "\n";
+  }
   return out;
 }
 
@@ -200,6 +221,7 @@ std::string table_of(std::span<const PerceptionRow> rows) {
                 number(f.median.cpu, 0).c_str(), number(f.median.first, 0).c_str(), number(row.training.ms, 0).c_str());
     out += text("%.0f/%.0f/%.0f/%.0f\n", f.median.preprocess, f.median.voting, f.median.verification, f.median.icp);
   }
+  out += peers_of(rows);
   return out;
 }
 
