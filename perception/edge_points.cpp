@@ -48,33 +48,57 @@ void sample_side(const Side& side, double spacing, PointCloud& out) {
   }
 }
 
+/// A wanted pixel at least kHalf from the image's border, with what a depth jump is there.
+struct Place {
+  const Scene& scene;
+  int u, v;
+  float z, jump;
+
+  Place(const Scene& s, int u_px, int v_px) : scene(s), u(u_px), v(v_px), z(s.depth(u, v)) {
+    jump = std::max(kLeastJump, 4 * scene.sigma(z));
+  }
+  bool behind(int a, int b) const { return !(scene.depth(u + a, v + b) < z + jump); }  // or unknown
+};
+
 /// Direction in the image in which the scene falls away from a pixel; zero where it does not.
-Eigen::Vector2f falling_direction(const Scene& scene, int u, int v) {
-  const float z = scene.depth(u, v), jump = std::max(kLeastJump, 4 * scene.sigma(z));
-  const auto behind = [&](int a, int b) { return scene.depth.contains(a, b) && !(scene.depth(a, b) < z + jump); };
-  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
-  if (!behind(u - 1, v) && !behind(u + 1, v) && !behind(u, v - 1) && !behind(u, v + 1)) return sum;
-  int count = 0;
+Eigen::Vector2f falling_direction(const Place& at) {
+  if (!at.behind(-1, 0) && !at.behind(1, 0) && !at.behind(0, -1) && !at.behind(0, 1)) return Eigen::Vector2f::Zero();
+  int sum_a = 0, sum_b = 0, count = 0;
   for (int b = -kHalf; b <= kHalf; ++b)
-    for (int a = -kHalf; a <= kHalf; ++a)
-      if (behind(u + a, v + b)) {
-        sum += Eigen::Vector2f(static_cast<float>(a), static_cast<float>(b));
-        ++count;
-      }
+    for (int a = -kHalf; a <= kHalf; ++a) {
+      const int is = at.behind(a, b);
+      sum_a += is * a, sum_b += is * b, count += is;
+    }
+  const Eigen::Vector2f sum(static_cast<float>(sum_a), static_cast<float>(sum_b));
   // A hole of a few pixels is no edge; nor is a thin bridge that falls away on both sides.
   if (count < kHalf * (2 * kHalf + 1) / 2 || sum.norm() < 0.8f * static_cast<float>(count))
     return Eigen::Vector2f::Zero();
   return sum.normalized();
 }
 
-Eigen::Vector3f mean_normal(const Scene& scene, int u, int v) {
-  const float z = scene.depth(u, v), jump = std::max(kLeastJump, 4 * scene.sigma(z));
+Eigen::Vector3f mean_normal(const Place& at) {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (int b = -kHalf; b <= kHalf; ++b)
     for (int a = -kHalf; a <= kHalf; ++a)
-      if (scene.depth.contains(u + a, v + b) && std::abs(scene.depth(u + a, v + b) - z) < jump)
-        mean += scene.normals(u + a, v + b);
+      if (std::abs(at.scene.depth(at.u + a, at.v + b) - at.z) < at.jump) mean += at.scene.normals(at.u + a, at.v + b);
   return mean.squaredNorm() > 0.25f ? Eigen::Vector3f(mean.normalized()) : Eigen::Vector3f::Zero();
+}
+
+/// Edge points of a row, moved back by what the sensor lets the foreground grow.
+void edges_of_row(const Scene& scene, int v, PointCloud& out) {
+  for (int u = kHalf; u + kHalf < scene.depth.width(); ++u) {
+    if (!scene.wanted(u, v)) continue;
+    const Place at(scene, u, v);
+    const Eigen::Vector2f g = falling_direction(at);
+    if (g.isZero()) continue;
+    const Eigen::Vector3f n = mean_normal(at);
+    if (n.isZero()) continue;
+    const Eigen::Vector3f g3(g.x(), g.y(), 0), outward = g3 - n * n.dot(g3);
+    if (outward.norm() < 0.3f) continue;  // the face is seen nearly edge-on
+    const float inward = static_cast<float>(scene.noise.fattening_px) * scene.pixel(at.z);
+    out.points.push_back((scene.point(u, v, at.z) - outward.normalized() * inward).cast<double>());
+    out.normals.push_back(outward.normalized().cast<double>());
+  }
 }
 
 }  // namespace
@@ -104,19 +128,7 @@ PointCloud model_edges(const TriangleMesh& mesh_P, const PointCloud& outside_P, 
 
 PointCloud scene_edges(const Scene& scene, double voxel) {
   PointCloud edges;
-  for (int v = kHalf; v + kHalf < scene.depth.height(); ++v)
-    for (int u = kHalf; u + kHalf < scene.depth.width(); ++u) {
-      if (!scene.wanted(u, v)) continue;
-      const Eigen::Vector2f g = falling_direction(scene, u, v);
-      if (g.isZero()) continue;
-      const Eigen::Vector3f n = mean_normal(scene, u, v);
-      if (n.isZero()) continue;
-      const Eigen::Vector3f g3(g.x(), g.y(), 0), out = g3 - n * n.dot(g3);
-      if (out.norm() < 0.3f) continue;  // the face is seen nearly edge-on
-      const float z = scene.depth(u, v), inward = static_cast<float>(scene.noise.fattening_px) * scene.pixel(z);
-      edges.points.push_back((scene.point(u, v, z) - out.normalized() * inward).cast<double>());
-      edges.normals.push_back(out.normalized().cast<double>());
-    }
+  for (int v = kHalf; v + kHalf < scene.depth.height(); ++v) edges_of_row(scene, v, edges);
   return voxel_grid(edges, voxel);
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/mesh_properties.hpp"
+#include "core/parallel.hpp"
 #include "perception/edge_points.hpp"
 #include "perception/pose_clustering.hpp"
 
@@ -88,8 +89,10 @@ ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const Ppf
   const double voxel = settings.preprocess.voxel * part.diameter;
   ScenePoints points;
   points.threads = scene.threads;
-  points.surface_C = voxel_grid(scene, voxel);
-  if (settings.search.edges) points.edges_C = scene_edges(scene, voxel);
+  parallel_for(2, scene.threads, [&](std::size_t kind) {
+    if (kind == 0) points.surface_C = voxel_grid(scene, voxel);
+    if (kind == 1 && settings.search.edges) points.edges_C = scene_edges(scene, voxel);
+  });
   return points;
 }
 

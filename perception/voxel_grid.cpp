@@ -10,80 +10,117 @@ namespace {
 
 constexpr float kSameSide = 0.7f;  // cosine: normals further apart stay two points
 
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t index;
-};
+/// floor as an int; std::floor is a call on the oldest processors.
+std::int64_t whole(float x) {
+  const auto i = static_cast<std::int64_t>(x);
+  return i - (x < static_cast<float>(i));
+}
 
 std::uint64_t voxel_key(const Eigen::Vector3f& p, float inverse) {
   std::uint64_t key = 0;
-  for (int i = 0; i < 3; ++i) {
-    const auto c = static_cast<std::int64_t>(std::floor(p[i] * inverse)) + (1 << 20);
-    key = (key << 21) | static_cast<std::uint64_t>(std::clamp<std::int64_t>(c, 0, (1 << 21) - 1));
-  }
+  for (int i = 0; i < 3; ++i)
+    key = (key << 21) |
+          static_cast<std::uint64_t>(std::clamp<std::int64_t>(whole(p[i] * inverse) + (1 << 20), 0, (1 << 21) - 1));
   return key;
 }
 
-/// Means of the points of one voxel, one for each side.
+/// Sums of the points of one voxel that face one way, and the next of the same voxel.
 struct Side {
   Eigen::Vector3f first, point, normal;
-  int count;
+  std::int32_t count, next;
 };
 
-void add_to_sides(std::vector<Side>& sides, const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
-  for (Side& side : sides)
-    if (side.first.dot(n) > kSameSide) {
-      side.point += p;
-      side.normal += n;
-      ++side.count;
-      return;
-    }
-  sides.push_back({n, p, n, 1});
-}
+/// Voxels in the order in which they are met: a table of their keys (open addressing), each with a chain of sides.
+class Voxels {
+ public:
+  Voxels() : slots_(1 << 14) {}
 
-PointCloud grid(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals, double voxel) {
-  const float inverse = static_cast<float>(1 / voxel);
-  std::vector<Keyed> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    keyed[i] = {voxel_key(points[i], inverse), static_cast<std::uint32_t>(i)};
-  std::sort(keyed.begin(), keyed.end(),
-            [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
-  PointCloud out;
-  std::vector<Side> sides;
-  for (std::size_t i = 0; i < keyed.size();) {
-    sides.clear();
-    const std::uint64_t key = keyed[i].key;
-    for (; i < keyed.size() && keyed[i].key == key; ++i)
-      add_to_sides(sides, points[keyed[i].index], normals[keyed[i].index]);
-    for (const Side& side : sides) {
+  void add(std::uint64_t key, const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
+    std::int32_t* side = key == last_key_ ? last_ : (last_ = first_side(key));
+    last_key_ = key;
+    while (*side >= 0) {
+      Side& s = sides_[static_cast<std::size_t>(*side)];
+      if (s.first.dot(n) > kSameSide) {
+        s.point += p;
+        s.normal += n;
+        ++s.count;
+        return;
+      }
+      side = &s.next;
+    }
+    *side = static_cast<std::int32_t>(sides_.size());
+    sides_.push_back({n, p, n, 1, -1});
+  }
+
+  PointCloud means() const {
+    PointCloud out;
+    out.points.reserve(sides_.size());
+    out.normals.reserve(sides_.size());
+    for (const Side& side : sides_) {
       out.points.push_back((side.point / static_cast<float>(side.count)).cast<double>());
       out.normals.push_back(side.normal.normalized().cast<double>());
     }
+    return out;
   }
-  return out;
-}
+
+ private:
+  static constexpr std::uint64_t kFree = ~std::uint64_t{0};  // no key has its highest bit set
+  struct Slot {
+    std::uint64_t key = kFree;
+    std::int32_t side = -1;
+  };
+
+  std::int32_t* first_side(std::uint64_t key) {
+    if (2 * used_ >= slots_.size()) grow();
+    Slot& slot = slots_[place_of(key)];
+    if (slot.key == kFree) {
+      slot.key = key;
+      ++used_;
+    }
+    return &slot.side;
+  }
+  std::size_t place_of(std::uint64_t key) const {
+    std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ull) >> 32) & (slots_.size() - 1);
+    while (slots_[at].key != key && slots_[at].key != kFree) at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old)
+      if (slot.key != kFree) slots_[place_of(slot.key)] = slot;
+  }
+
+  std::vector<Slot> slots_;
+  std::size_t used_ = 0;
+  std::vector<Side> sides_;
+  std::uint64_t last_key_ = kFree;
+  std::int32_t* last_ = nullptr;  // the last key's first side; stays valid until the table grows for another key
+};
 
 }  // namespace
 
 PointCloud voxel_grid(const Scene& scene, double voxel) {
-  std::vector<Eigen::Vector3f> points, normals;
+  const float inverse = static_cast<float>(1 / voxel);
+  Voxels voxels;
   for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u)
-      if (scene.wanted(u, v) && !scene.normals(u, v).isZero()) {
-        points.push_back(scene.point(u, v, scene.depth(u, v)));
-        normals.push_back(scene.normals(u, v));
-      }
-  return grid(points, normals, voxel);
+    for (int u = 0; u < scene.depth.width(); ++u) {
+      if (!scene.wanted(u, v) || scene.normals(u, v).isZero(0)) continue;
+      const Eigen::Vector3f p = scene.point(u, v, scene.depth(u, v));
+      voxels.add(voxel_key(p, inverse), p, scene.normals(u, v));
+    }
+  return voxels.means();
 }
 
 PointCloud voxel_grid(const PointCloud& cloud, double voxel) {
   BP_CHECK(cloud.has_normals() || cloud.points.empty());
-  std::vector<Eigen::Vector3f> points, normals;
+  const float inverse = static_cast<float>(1 / voxel);
+  Voxels voxels;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    points.push_back(cloud.points[i].cast<float>());
-    normals.push_back(cloud.normals[i].cast<float>());
+    const Eigen::Vector3f p = cloud.points[i].cast<float>();
+    voxels.add(voxel_key(p, inverse), p, cloud.normals[i].cast<float>());
   }
-  return grid(points, normals, voxel);
+  return voxels.means();
 }
 
 }  // namespace binpick
