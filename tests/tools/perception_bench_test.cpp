@@ -153,9 +153,9 @@ TEST(PerceptionFigures, APeersRatioComparesTheSameHeapsOnly) {
 
 TEST(PerceptionCalibration, CountsTheShareOfRightOnesInEachBin) {
   std::vector<ScoredEstimate> estimates;
-  for (int k = 0; k < 10; ++k) estimates.push_back({0.95, k < 9, false});
-  for (int k = 0; k < 4; ++k) estimates.push_back({0.25, k < 1, false});
-  estimates.push_back({1.0, true, false});
+  for (int k = 0; k < 10; ++k) estimates.push_back({0.95, k < 9});
+  for (int k = 0; k < 4; ++k) estimates.push_back({0.25, k < 1});
+  estimates.push_back({1.0, true});
   const std::vector<ReliabilityBin> bins = reliability(estimates, 10);
   ASSERT_EQ(bins.size(), 2u);
   EXPECT_EQ(bins[0].right, 1u);

@@ -74,7 +74,7 @@ std::string write_calibration(std::span<const PerceptionRow> rows, const std::st
   Pools pools, parts;
   for (const PerceptionRow& row : rows) {
     add_to(pools, row.contender + " (all parts)", row);
-    add_to(parts, row.contender + " " + row.part + " " + row.sensor, row);
+    add_to(parts, row.contender + " " + row.part, row);
   }
   const std::size_t whole = pools.size();
   pools.insert(pools.end(), parts.begin(), parts.end());

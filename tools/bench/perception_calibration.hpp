@@ -24,8 +24,8 @@ std::vector<ReliabilityBin> reliability(std::span<const ScoredEstimate> estimate
 /// error); NaN without estimates.
 double calibration_error(std::span<const ReliabilityBin> bins);
 
-/// folder/calibration.csv, .gp and, where gnuplot is installed, .png: every part and all parts of each estimator. A
-/// table of the latter for the terminal is returned. Throws StorageError.
+/// folder/calibration.csv, .gp and, where gnuplot is installed, .png: every part and all parts of each estimator,
+/// sensors pooled. A table of the latter for the terminal is returned. Throws StorageError.
 std::string write_calibration(std::span<const PerceptionRow> rows, const std::string& folder);
 
 }  // namespace binpick

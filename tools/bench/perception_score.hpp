@@ -46,10 +46,13 @@ struct RightEstimate {
   double rotation = 0;     ///< rad
 };
 
+/// What a calibration of the scores can go by.
 struct ScoredEstimate {
   double score = 0;
   bool right = false;
-  bool ambiguous = false;
+  bool ambiguous = false;  ///< flagged by the estimator
+  double inlier_fraction = 0;
+  double fit_rms = 0;  ///< m
 };
 
 struct LookScore {

@@ -93,6 +93,15 @@ Json by_pixels_json(const PerceptionRow& row) {
   return bands;
 }
 
+/// Everything that counts for precision: [score, right, flagged as ambiguous, inlier fraction, fit rms in m].
+Json scored_json(const PerceptionRow& row) {
+  Json all = Json::array();
+  for (const LookScore& look : row.looks)
+    for (const ScoredEstimate& e : look.scored)
+      all.push_back({e.score, e.right, e.ambiguous, e.inlier_fraction, e.fit_rms});
+  return all;
+}
+
 void add_figures(const RowFigures& f, Json& out) {
   out["recall"] = rate_json(f.recall, "visible", "found");
   out["recall_partly_visible"] = rate_json(f.recall_partly, "visible", "found");
@@ -154,6 +163,7 @@ Json row_json(std::span<const PerceptionRow> rows, const PerceptionRow& row) {
     for (const MissedInstance& m : look.missed) out["missed"].push_back(missed_json(m));
     for (const WrongEstimate& w : look.wrong) out["wrong"].push_back(wrong_json(w));
   }
+  out["scored"] = scored_json(row);
   out["settings"] = row.settings;
   return out;
 }
