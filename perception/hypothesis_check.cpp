@@ -7,7 +7,9 @@
 namespace binpick {
 namespace {
 
-constexpr int kMostVoxels = 400;  // along one edge: bounds the memory when stray points lie far away
+constexpr int kMostVoxels = 400;       // along one edge: bounds the memory when stray points lie far away
+constexpr float kLeastFacing = 0.05f;  // cosine, flatter points are not judged
+constexpr float kLeastSlant = 0.35f;   // cosine: on a slanted surface a small step sideways is a large one in depth
 
 /// The view from which the camera sees the part at a pose.
 int view_at(const SurfaceModel& model, const Eigen::Isometry3f& X_CP) {
@@ -90,37 +92,32 @@ double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose
 CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config,
                        double widened) {
   const Eigen::Isometry3f X = X_CP.cast<float>();
-  const auto& seen = model.seen_from(view_at(model, X));
-  const std::size_t count = std::min(seen.size(), static_cast<std::size_t>(config.points));
-  const auto least = static_cast<float>(std::cos(config.normal_tolerance));
-  CheckCounts out;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Eigen::Vector3f p = X * model.points()[seen[k]], n = X.linear() * model.normals()[seen[k]];
-    const float facing = -n.dot(p) / p.norm();  // cosine; also the area the point covers in the image
-    if (!(p.z() > 0) || !(facing > 0.05f)) continue;
-    out.tried += facing;
-    const int u = static_cast<int>(std::lround(p.x() / p.z() * scene.camera.fx + scene.camera.cx));
-    const int v = static_cast<int>(std::lround(p.y() / p.z() * scene.camera.fy + scene.camera.cy));
-    if (!scene.depth.contains(u, v) || std::isnan(scene.depth(u, v))) {
-      out.unknown += facing;
-      continue;
-    }
-    // On a slanted surface a small step sideways is a large one in depth.
-    const float tolerance =
-        static_cast<float>(widened) * depth_tolerance(scene, p.z(), config) / std::max(0.35f, facing);
-    const float behind = scene.depth(u, v) - p.z();
-    const Eigen::Vector3f& s = scene.normals(u, v);
-    if (behind > tolerance) {
-      out.through += facing;
-    } else if (behind < -tolerance) {
-      out.occluded += facing;
-    } else if (!scene.wanted(u, v)) {
-      out.unknown += facing;
-    } else {
-      (s.isZero() || s.dot(n) >= least ? out.inliers : out.off) += facing;
-    }
+  const RayImage image{scene.depth.data(),
+                       scene.wanted.data(),
+                       scene.normals.data()->data(),
+                       scene.depth.width(),
+                       scene.depth.height(),
+                       static_cast<float>(scene.camera.fx),
+                       static_cast<float>(scene.camera.fy),
+                       static_cast<float>(scene.camera.cx),
+                       static_cast<float>(scene.camera.cy)};
+  RayQuery query;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) query.R_CP[3 * row + column] = X.linear()(row, column);
+    query.p_CP[row] = X.translation()[row];
   }
-  return out;
+  query.least_facing = kLeastFacing;
+  query.least_slant = kLeastSlant;
+  query.least_normal = static_cast<float>(std::cos(config.normal_tolerance));
+  query.widened = static_cast<float>(widened);
+  query.floor = static_cast<float>(config.tolerance);
+  query.sigmas = static_cast<float>(config.tolerance_sigmas);
+  query.constant = static_cast<float>(scene.noise.constant);
+  query.linear = static_cast<float>(scene.noise.linear);
+  query.quadratic = static_cast<float>(scene.noise.quadratic);
+  RaySums sums;
+  add_rays(model.seen_points(view_at(model, X), config.points), image, query, sums);
+  return {sums.tried, sums.inliers, sums.occluded, sums.through, sums.unknown, sums.off};
 }
 
 bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {

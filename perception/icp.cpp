@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <memory>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "perception/icp_points.hpp"
 #include "perception/outline_term.hpp"
 
 namespace binpick {
@@ -26,10 +28,14 @@ struct Equations {
   int points = 0;
   double sum_abs = 0, sum_squares = 0;
 
-  void add(const Eigen::Vector3f& p_P, const Eigen::Vector3f& direction_P, double residual, double weight) {
-    Vector6d a;
-    a << direction_P.cast<double>(), p_P.cross(direction_P).cast<double>();
-    add(a, residual, weight);
+  void add(const SurfaceSums& sums) {
+    for (int row = 0, t = 0; row < 6; ++row) {
+      for (int column = 0; column <= row; ++column) A(row, column) += sums.A[t++];
+      b[row] += sums.b[row];
+    }
+    points += static_cast<int>(sums.points);
+    sum_abs += sums.sum_abs;
+    sum_squares += sums.sum_squares;
   }
   void add(const Vector6d& a, double residual, double weight) {
     A.selfadjointView<Eigen::Lower>().rankUpdate(a, weight);
@@ -43,59 +49,29 @@ struct Equations {
   }
 };
 
-/// The part of the image in which the part can lie, and how densely it is looked at.
-struct Roi {
-  int u0 = 0, v0 = 0, u1 = -1, v1 = -1, step = 1;
-};
-
-Roi roi_of(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const IcpConfig& config) {
-  const Eigen::Vector3d center = X_CP * model.center().cast<double>();
-  const double reach = model.radius() * 1.1;
-  if (!(center.z() > reach)) return {};
-  const double near = center.z() - reach;
-  const Eigen::Vector2d c = scene.camera.project(center);
-  const double du = scene.camera.fx * reach / near, dv = scene.camera.fy * reach / near;
-  Roi roi;
-  roi.u0 = std::max(0, static_cast<int>(std::max(c.x() - du, 0.0)));
-  roi.v0 = std::max(0, static_cast<int>(std::max(c.y() - dv, 0.0)));
-  roi.u1 = static_cast<int>(std::min(c.x() + du, scene.depth.width() - 1.0));
-  roi.v1 = static_cast<int>(std::min(c.y() + dv, scene.depth.height() - 1.0));
-  // Seldom more than half of the box about the sphere is the part.
-  const double area = std::max(0, roi.u1 - roi.u0) * std::max(0.0, static_cast<double>(roi.v1 - roi.v0)) / 2;
-  roi.step = std::max(1, static_cast<int>(std::sqrt(area / config.points)));
-  return roi;
-}
-
 struct Weighting {
   float gate = 0;    // m
   double scale = 0;  // m, of one residual
 };
 
-void add_surface(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const Roi& roi, const Weighting& w,
+void add_surface(const IcpPoints& points, const SurfaceModel& model, const Pose& X_CP, const Weighting& w,
                  Equations& out) {
   const Eigen::Isometry3f X_PC = X_CP.inverse().cast<float>();
   const Eigen::Vector3f eye_P = X_PC.translation();
-  const int view = model.view_of((eye_P - model.center()).normalized());
-  const float gate = w.gate * w.gate, sideways = 4 * model.spacing() * model.spacing() + 0.25f * gate;
-  for (int v = roi.v0; v <= roi.v1; v += roi.step)
-    for (int u = roi.u0; u <= roi.u1; u += roi.step) {
-      if (!scene.wanted(u, v)) continue;
-      const Eigen::Vector3f p = X_PC * scene.point(u, v, scene.depth(u, v));
-      const int k = model.nearest(p);
-      if (k < 0 || !model.visible(static_cast<std::size_t>(k), view)) continue;
-      const Eigen::Vector3f& q = model.points()[k];
-      const Eigen::Vector3f& n = model.normals()[k];
-      if (n.dot(eye_P - q) <= 0) continue;
-      const float r = n.dot(p - q), squared = (p - q).squaredNorm();
-      if (r * r > gate || squared - r * r > sideways) continue;
-      const Eigen::Vector3f& s = scene.normals(u, v);
-      if (!s.isZero() && n.dot(X_PC.linear() * s) < kNormalAgreement) continue;
-      const double x = r / (kRobust * w.scale);
-      out.add(p, n, r, 1 / (w.scale * w.scale * (1 + x * x)));  // Cauchy
-      ++out.points;
-      out.sum_abs += std::abs(r);
-      out.sum_squares += static_cast<double>(r) * r;
-    }
+  SurfaceQuery query;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) query.R_PC[3 * row + column] = X_PC.linear()(row, column);
+    query.p_PC[row] = eye_P[row];
+  }
+  query.view = model.view_of((eye_P - model.center()).normalized());
+  query.gate = w.gate * w.gate;
+  query.sideways = 4 * model.spacing() * model.spacing() + 0.25f * query.gate;
+  query.agreement = kNormalAgreement;
+  query.scale = static_cast<float>(w.scale);
+  query.robust = static_cast<float>(kRobust);
+  SurfaceSums sums;
+  add_surface_points(points.view(), model.grid(), query, sums);
+  out.add(sums);
 }
 
 /// One equation of the outline, kept over iterations: drawing the part is the dearest step.
@@ -182,6 +158,7 @@ class Refinement {
     sigma_ = scene_.sigma(static_cast<float>((X_CP * model_.center().cast<double>()).z()));
     const float last = std::max(static_cast<float>(config_.least_gate), 3 * sigma_);
     gate_ = fine_ ? last : std::max(last, static_cast<float>(config_.gate) * 2 * model_.radius());
+    points_ = std::make_unique<IcpPoints>(scene_, model_, X_CP_, gate_, config_.points);
     int left = fine_ ? config_.fine_iterations : config_.coarse_iterations;
     for (int round = 0; assemble(fine_ && config_.silhouette && round % 2 == 0 && left > 0) && left > 0; ++round) {
       const bool still = move();
@@ -194,11 +171,10 @@ class Refinement {
  private:
   /// The equations at the current pose; false when too little of the scene is near.
   bool assemble(bool draw) {
-    const Roi roi = roi_of(scene_, model_, X_CP_, config_);
     const Weighting weighting{gate_, std::max({kLeastScale, static_cast<double>(sigma_), gate_ / 6.0})};
     equations_ = Equations();
-    add_surface(scene_, model_, X_CP_, roi, weighting, equations_);
-    correlated_ = std::max(1.0, config_.correlated_px / (roi.step * roi.step));
+    add_surface(*points_, model_, X_CP_, weighting, equations_);
+    correlated_ = std::max(1.0, config_.correlated_px / (points_->step() * points_->step()));
     if (equations_.points < kFewestPoints) return false;
     if (draw) outline_ = outline_rows(scene_, model_, X_CP_, config_);
     for (const OutlineRow& row : outline_) equations_.add(row.a, row.residual, row.weight);
@@ -232,6 +208,7 @@ class Refinement {
   Pose X_CP_ = Pose::Identity();
   float sigma_ = 0, gate_ = 0;
   double correlated_ = 1;
+  std::unique_ptr<IcpPoints> points_;
   Equations equations_;
   std::vector<OutlineRow> outline_;
 };

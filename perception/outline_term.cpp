@@ -10,8 +10,10 @@ constexpr int kWidest = 16;  // px, largest search
 
 /// What the scene shows k pixels outside the rim, against the model's depth at the rim.
 Seen classify(const Scene& scene, const OutlinePixel& rim, int k, float tolerance) {
-  const int u = static_cast<int>(std::lround(static_cast<float>(rim.u) + static_cast<float>(k) * rim.outward.x()));
-  const int v = static_cast<int>(std::lround(static_cast<float>(rim.v) + static_cast<float>(k) * rim.outward.y()));
+  // Half a pixel and a large whole number up: a cast rounds towards zero.
+  const auto rounded = [](float x) { return static_cast<int>(x + 64.5f) - 64; };
+  const int u = rounded(static_cast<float>(rim.u) + static_cast<float>(k) * rim.outward.x());
+  const int v = rounded(static_cast<float>(rim.v) + static_cast<float>(k) * rim.outward.y());
   if (!scene.depth.contains(u, v)) return Seen::kCovered;
   const float z = scene.depth(u, v);
   if (!(z <= rim.z + tolerance)) return Seen::kBehind;  // farther, or unknown as in the shadow of a stereo camera

@@ -1,11 +1,12 @@
-// The search for one kind of part in a scene: votes, clusters, verification, refinement. What a part needs for it is
-// prepared once from its CAD. Frame C for poses, P for the model; metres.
+// The search for one kind of part in a scene: points, votes, clusters (part_refinement goes on from there). What a part
+// needs for it is prepared once from its CAD. Frame C for poses, P for the model; metres.
 #pragma once
 
 #include <vector>
 
 #include "core/part.hpp"
 #include "perception/pair_table.hpp"
+#include "perception/pose_clustering.hpp"
 #include "perception/ppf_settings.hpp"
 #include "perception/self_overlap.hpp"
 
@@ -34,12 +35,7 @@ ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const Ppf
 std::vector<PoseHypothesis> voted_poses(const ScenePoints& points, const PreparedPart& part,
                                         const PpfSettings& settings, VoteRun run = {});
 
-/// Of those, what the scene bears out best, from every region some (paper 4.2).
-std::vector<PoseHypothesis> verified_poses(const Scene& scene, const PreparedPart& part,
-                                           const std::vector<PoseHypothesis>& poses, const PpfSettings& settings);
-
-/// ICP of those, coarse and fine, and the acceptance of the drawn part (paper 4.2). `part` is left 0.
-std::vector<Candidate> refined_poses(const Scene& scene, const PreparedPart& part,
-                                     const std::vector<PoseHypothesis>& poses, const PpfSettings& settings);
+/// When two poses of the part are one; `shrink`: of the configured distance and angle.
+SamePose same_place(const PreparedPart& part, const SearchConfig& search, double shrink);
 
 }  // namespace binpick

@@ -14,7 +14,7 @@ namespace binpick {
 
 struct PartView {
   int u0 = 0, v0 = 0;  ///< pixel of the image at the crop's (0, 0)
-  Image<float> depth;  ///< m, +infinity outside the part
+  Image<float> depth;  ///< m, +infinity outside the part; its border is always outside
   int pixels = 0;      ///< of the whole silhouette inside the image
 
   bool inside(int u, int v) const { return depth.contains(u - u0, v - v0) && std::isfinite(depth(u - u0, v - v0)); }

@@ -1,15 +1,15 @@
 // The pipeline behind `type: ppf` and `type: paper_ppf`: one order of stages, two sets of defaults.
 //   scene     crop, floor and walls, normals, voxel grid                   preprocess
 //   votes     pairs of surface points and of oriented edge points          part_search (pair_table, voting, clustering)
-//   check     voxel grid, then along the rays                              part_search (hypothesis_check)
-//   refine    ICP on the visible points, with the silhouette               part_search (icp, view_check)
+//   check     voxel grid, then along the rays                              part_refinement (hypothesis_check)
+//   refine    ICP on the visible points, with the silhouette               part_refinement (icp, view_check)
 //   settle    no two poses may claim the same place                        view_check
 //   rivals    poses the view cannot tell apart are marked and come last    rival_poses (self_overlap)
 // and a second search looks at what is still unexplained. Frame C, metres. The answer is a function of view and
 // settings alone: neither the seed nor the number of threads changes it.
 #pragma once
 
-#include "perception/part_search.hpp"
+#include "perception/part_refinement.hpp"
 #include "perception/pose_estimator.hpp"
 
 namespace binpick {

@@ -21,6 +21,7 @@ struct SearchConfig {
   int rounds = 2;                 // the second one looks at what the first left unexplained
   double sure = 0.5;              // score from which a pose counts as one of those
   int enough = 0;                 // accepted poses after which the search stops; 0: all that can be found
+  double least_coarse = 0;        // score along the rays below which a coarsely refined pose is dropped
   int finished = 50;              // of those, refined finely with the silhouette
   double cluster_distance = 0.1;  // of the diameter
   double cluster_angle = 0.4;     // rad
@@ -33,6 +34,7 @@ struct SearchConfig {
     v.field("rounds", rounds, "searches; each further one looks at what is still unexplained");
     v.field("sure", sure, Unit::kNone, "score from which a pose counts towards `enough`");
     v.field("enough", enough, "poses that are enough: the search stops early; 0: all that can be found");
+    v.field("least_coarse", least_coarse, Unit::kNone, "score that a coarsely refined pose needs, -1 .. 1");
     v.field("finished", finished, "of those, refined finely");
     v.field("cluster_distance", cluster_distance, Unit::kNone, "poses nearer than this are one, of the diameter");
     v.field("cluster_angle", cluster_angle, Unit::kAngle, "and turned by less than this");
@@ -42,6 +44,7 @@ struct SearchConfig {
     if (clusters < 1 || refined < 1 || regional < 1 || finished < 1 || rounds < 1)
       throw SpecError("search.clusters, refined, regional, finished, rounds: must be at least 1");
     if (!(sure >= 0 && sure <= 1)) throw SpecError("search.sure: must lie between 0 and 1");
+    if (!(least_coarse >= -1 && least_coarse < 1)) throw SpecError("search.least_coarse: must lie between -1 and 1");
     if (enough < 0) throw SpecError("search.enough: must not be negative");
     if (!(cluster_distance > 0 && cluster_distance <= 1))
       throw SpecError("search.cluster_distance: must lie between 0 and 1");

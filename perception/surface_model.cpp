@@ -54,6 +54,50 @@ SurfaceModel::SurfaceModel(const TriangleMesh& mesh_P, double spacing, double re
   }
   build_shell(mesh_P);
   build_field(static_cast<float>(reach));
+  pack();
+}
+
+/// The same once more, in the order in which the kernels read it.
+void SurfaceModel::pack() {
+  constexpr std::size_t kLanes = 8;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    SurfacePoint& point = packed_.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      point.p[k] = points_[i][k];
+      point.n[k] = normals_[i][k];
+    }
+    point.views = masks_[i];
+  }
+  for (const std::vector<std::uint32_t>& seen : seen_) {
+    const std::size_t count = (seen.size() + kLanes - 1) / kLanes * kLanes;
+    PackedView& view = packed_views_.emplace_back();
+    view.count = static_cast<int>(count);
+    view.numbers.assign(6 * count, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        view.numbers[k * count + i] = packed_[seen[i]].p[k];
+        view.numbers[(k + 3) * count + i] = packed_[seen[i]].n[k];
+      }
+  }
+}
+
+ModelPointsView SurfaceModel::seen_points(int view, int most) const {
+  const PackedView& packed = packed_views_[view];
+  const float* x = packed.numbers.data();
+  const std::size_t n = static_cast<std::size_t>(packed.count);
+  return {x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, x + 5 * n, std::min(packed.count, (most + 7) / 8 * 8)};
+}
+
+SurfaceGrid SurfaceModel::grid() const {
+  SurfaceGrid out;
+  out.cells = field_.data();
+  out.points = packed_.data();
+  out.inverse_cell = inverse_cell_;
+  for (int k = 0; k < 3; ++k) {
+    out.low[k] = low_[k];
+    out.size[k] = size_[k];
+  }
+  return out;
 }
 
 int SurfaceModel::view_of(const Eigen::Vector3f& direction_P) const {

@@ -10,6 +10,8 @@
 
 #include "core/mesh.hpp"
 #include "perception/neighbours.hpp"
+#include "perception/ray_kernel.hpp"
+#include "perception/surface_kernel.hpp"
 
 namespace binpick {
 
@@ -37,6 +39,10 @@ class SurfaceModel {
   bool visible(std::size_t point, int view) const { return (masks_[point] >> view) & 1u; }
   /// Indices of all points visible in a view; any stretch of the list is spread evenly over the surface.
   const std::vector<std::uint32_t>& seen_from(int view) const { return seen_[view]; }
+  /// The first `most` of them (rounded up to eight) side by side, as the ray kernel reads them.
+  ModelPointsView seen_points(int view, int most) const;
+  /// Nearest point, normal and views as the surface kernel reads them.
+  SurfaceGrid grid() const;
 
   /// Index of the nearest surface point, or -1 beyond the reach.
   int nearest(const Eigen::Vector3f& p_P) const {
@@ -50,6 +56,7 @@ class SurfaceModel {
   void build_shell(const TriangleMesh& mesh_P);
   bool shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const;
   void build_field(float reach);
+  void pack();
   std::vector<Eigen::Vector3f> points_, normals_;
   std::vector<ViewMask> masks_;
   std::vector<Eigen::Vector3f> views_;
@@ -62,6 +69,12 @@ class SurfaceModel {
   Eigen::Array3f limit_ = Eigen::Array3f::Zero();
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
   std::vector<std::int32_t> field_;
+  std::vector<SurfacePoint> packed_;
+  struct PackedView {
+    std::vector<float> numbers;  // six stretches: x y z, normal x y z
+    int count = 0;               // of one stretch, a multiple of eight
+  };
+  std::vector<PackedView> packed_views_;
 };
 
 }  // namespace binpick

@@ -11,53 +11,63 @@ constexpr int kBeyond = 5;             // px outside the outline: past fattening
 constexpr float kSteepest = 0.01f;     // m per px, slope that is carried on outside the outline
 constexpr double kSettledLead = 0.05;  // of the score: a pose that stood after an earlier search yields to a clear gain
 
-/// Depth change from a pixel to its steepest neighbour inside the part.
-float slope(const PartView& view, int u, int v) {
-  float steepest = 0;
-  const auto look = [&](int a, int b) {
-    if (view.inside(a, b)) steepest = std::max(steepest, std::abs(view.at(a, b) - view.at(u, v)));
-  };
-  look(u - 1, v), look(u + 1, v), look(u, v - 1), look(u, v + 1);
-  return std::min(steepest, kSteepest);
-}
+/// A pixel of the drawn part among its neighbours; the crop's border is outside, so that all four exist.
+struct Drawn {
+  float z, left, right, up, down;
+  Drawn(const PartView& view, int x, int y)
+      : z(view.depth(x, y)),
+        left(view.depth(x - 1, y)),
+        right(view.depth(x + 1, y)),
+        up(view.depth(x, y - 1)),
+        down(view.depth(x, y + 1)) {}
+  bool rim() const { return !std::isfinite(left + right + up + down); }
+  /// Depth change to the steepest neighbour inside the part.
+  float slope() const {
+    float steepest = 0;
+    for (const float other : {left, right, up, down})
+      if (std::isfinite(other)) steepest = std::max(steepest, std::abs(other - z));
+    return std::min(steepest, kSteepest);
+  }
+};
 
-bool rim(const PartView& view, int u, int v) {
-  return !(view.inside(u - 1, v) && view.inside(u + 1, v) && view.inside(u, v - 1) && view.inside(u, v + 1));
-}
-
-/// The drawn surface's normal, or zero at its rim.
-Eigen::Vector3f drawn_normal(const Scene& scene, const PartView& view, int u, int v) {
-  const Eigen::Vector3f p = scene.point(u, v, view.at(u, v));
-  const Eigen::Vector3f dx = scene.point(u + 1, v, view.at(u + 1, v)) - p,
-                        dy = scene.point(u, v + 1, view.at(u, v + 1)) - p;
+/// The drawn surface's normal away from its rim.
+Eigen::Vector3f drawn_normal(const Scene& scene, int u, int v, const Drawn& at) {
+  const Eigen::Vector3f p = scene.point(u, v, at.z);
+  const Eigen::Vector3f dx = scene.point(u + 1, v, at.right) - p, dy = scene.point(u, v + 1, at.down) - p;
   return dy.cross(dx).normalized();  // x right, y down: towards the camera
 }
 
-void judge_pixel(const Scene& scene, const PartView& view, int u, int v, const CheckConfig& config, ViewCheck& out) {
-  const float z = view.at(u, v), seen = scene.depth(u, v);
-  if (std::isnan(seen)) {
-    ++out.unknown;
-    return;
-  }
-  const bool edge = rim(view, u, v);
-  const float tolerance = depth_tolerance(scene, z, config) + (edge ? 2.0f : 0.7f) * slope(view, u, v);
-  if (seen - z > tolerance) {
-    edge ? ++out.unknown : ++out.through;  // a rim pixel may see past the part by half a pixel
-  } else if (seen - z < -tolerance) {
-    ++out.covered;
-  } else if (!scene.wanted(u, v)) {
-    ++out.unknown;
-  } else {
-    const Eigen::Vector3f& s = scene.normals(u, v);
-    if (!edge && !s.isZero() && s.dot(drawn_normal(scene, view, u, v)) < std::cos(config.normal_tolerance)) {
-      ++out.off;
+struct PixelJudge {
+  const Scene& scene;
+  const CheckConfig& config;
+  float least_normal = static_cast<float>(std::cos(config.normal_tolerance));
+
+  void add(int u, int v, const Drawn& at, ViewCheck& out) const {
+    const float seen = scene.depth(u, v);
+    if (std::isnan(seen)) {
+      ++out.unknown;
       return;
     }
-    ++out.inliers;
-    out.explained.push_back(static_cast<std::uint32_t>(v) * static_cast<std::uint32_t>(scene.depth.width()) +
-                            static_cast<std::uint32_t>(u));
+    const bool edge = at.rim();
+    const float tolerance = depth_tolerance(scene, at.z, config) + (edge ? 2.0f : 0.7f) * at.slope();
+    if (seen - at.z > tolerance) {
+      edge ? ++out.unknown : ++out.through;  // a rim pixel may see past the part by half a pixel
+    } else if (seen - at.z < -tolerance) {
+      ++out.covered;
+    } else if (!scene.wanted(u, v)) {
+      ++out.unknown;
+    } else {
+      const Eigen::Vector3f& s = scene.normals(u, v);
+      if (!edge && !s.isZero() && s.dot(drawn_normal(scene, u, v, at)) < least_normal) {
+        ++out.off;
+        return;
+      }
+      ++out.inliers;
+      out.explained.push_back(static_cast<std::uint32_t>(v) * static_cast<std::uint32_t>(scene.depth.width()) +
+                              static_cast<std::uint32_t>(u));
+    }
   }
-}
+};
 
 /// Share of the outline just outside of which the scene carries on with the drawn surface.
 double leak_of(const Scene& scene, const PartView& view, const CheckConfig& config) {
@@ -81,20 +91,6 @@ double leak_of(const Scene& scene, const PartView& view, const CheckConfig& conf
     goes_on ? ++leaks : ++ends;
   }
   return leaks + ends >= 5 ? static_cast<double>(leaks) / (leaks + ends) : 0;
-}
-
-/// Share of the surface points of `b` that lie inside `a`, deeper than `slack`.
-double overlap(const SurfaceModel& a, const Pose& X_Ca, const SurfaceModel& b, const Pose& X_Cb, float slack) {
-  const Eigen::Isometry3f X_ab = (X_Ca.inverse() * X_Cb).cast<float>();
-  if ((X_ab * b.center() - a.center()).norm() > a.radius() + b.radius()) return 0;
-  const std::size_t step = std::max<std::size_t>(1, b.points().size() / 400);
-  int inside = 0, all = 0;
-  for (std::size_t i = 0; i < b.points().size(); i += step, ++all) {
-    const Eigen::Vector3f p = X_ab * b.points()[i];
-    const int k = a.nearest(p);
-    inside += k >= 0 && a.normals()[k].dot(p - a.points()[k]) < -slack;
-  }
-  return static_cast<double>(inside) / all;
 }
 
 }  // namespace
@@ -121,11 +117,30 @@ ViewCheck check_view(const Scene& scene, const SurfaceModel& model, const Pose& 
   const PartView view = draw_part(scene.camera, model, X_CP);
   out.pixels = view.pixels;
   if (view.pixels == 0) return out;
-  for (int v = view.v0; v < view.v0 + view.depth.height(); ++v)
-    for (int u = view.u0; u < view.u0 + view.depth.width(); ++u)
-      if (view.inside(u, v)) judge_pixel(scene, view, u, v, config, out);
+  const PixelJudge judge{scene, config};
+  out.explained.reserve(static_cast<std::size_t>(view.pixels));
+  for (int y = 1; y < view.depth.height() - 1; ++y)
+    for (int x = 1; x < view.depth.width() - 1; ++x)
+      if (std::isfinite(view.depth(x, y))) judge.add(view.u0 + x, view.v0 + y, Drawn(view, x, y), out);
   out.leak = leak_of(scene, view, config);
   return out;
+}
+
+double overlap(const SurfaceModel& a, const Pose& X_Ca, const SurfaceModel& b, const Pose& X_Cb, float slack) {
+  const Eigen::Isometry3f X_ab = (X_Ca.inverse() * X_Cb).cast<float>();
+  if ((X_ab * b.center() - a.center()).norm() > a.radius() + b.radius()) return 0;
+  const std::size_t step = std::max<std::size_t>(1, b.points().size() / 400);
+  int inside = 0, all = 0;
+  for (std::size_t i = 0; i < b.points().size(); i += step, ++all) {
+    const Eigen::Vector3f p = X_ab * b.points()[i];
+    const int k = a.nearest(p);
+    inside += k >= 0 && a.normals()[k].dot(p - a.points()[k]) < -slack;
+  }
+  return static_cast<double>(inside) / all;
+}
+
+float overlap_slack(const Scene& scene, const Pose& X_CP) {
+  return 0.002f + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));
 }
 
 bool accepted(const ViewCheck& check, const AcceptConfig& config) {
@@ -147,7 +162,7 @@ std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates,
     if (own < config.least_own * c.check.inliers || own < config.least_pixels ||
         own < config.least_explained * c.check.pixels)
       continue;
-    const float slack = 0.002f + 2 * scene.sigma(static_cast<float>(c.fit.X_CP.translation().z()));
+    const float slack = overlap_slack(scene, c.fit.X_CP);
     const bool clash = std::any_of(standing.begin(), standing.end(), [&](const Candidate& s) {
       return overlap(*models[s.part], s.fit.X_CP, *models[c.part], c.fit.X_CP, slack) > config.largest_overlap;
     });

@@ -41,6 +41,11 @@ struct ViewCheck {
 
 ViewCheck check_view(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
 
+/// Share of the surface points of part `b` that lie inside part `a`, deeper than `slack` (m).
+double overlap(const SurfaceModel& a, const Pose& X_Ca, const SurfaceModel& b, const Pose& X_Cb, float slack);
+/// The depth inside another part that errors of two poses may feign, m.
+float overlap_slack(const Scene& scene, const Pose& X_CP);
+
 bool accepted(const ViewCheck& check, const AcceptConfig& config);
 
 /// A refined pose with what speaks for it.
