@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "tests/tools/run_program.hpp"
+#include "tools/bench/peers/peer.hpp"
 #include "tools/bench/perception_ablation.hpp"
 #include "tools/bench/perception_calibration.hpp"
 #include "tools/bench/perception_heaps.hpp"
@@ -25,8 +26,8 @@ using testing::HasSubstr;
 
 const std::string kRoot = BINPICK_SOURCE_DIR;
 
-std::string scene_text(int count) {
-  return "name: few_tees\npart: " + kRoot + "/assets/parts/tee/part.yaml\ncount: " + std::to_string(count) +
+std::string scene_text(int count, const std::string& part = "tee") {
+  return "name: few_parts\npart: " + kRoot + "/assets/parts/" + part + "/part.yaml\ncount: " + std::to_string(count) +
          "\ncell: " + kRoot + "/assets/cells/mz07_one_cup.yaml\nestimator: {type: oracle}\n";
 }
 
@@ -266,6 +267,23 @@ TEST_F(PerceptionBenchRun, TheOracleIsAlwaysRightAndTheRowsHaveEveryKey) {
   EXPECT_EQ(json[1].at("recall").at("visible"), json[0].at("recall").at("visible")) << "not the same looks";
   EXPECT_EQ(json[1].at("recall").at("rate"), 1.0) << "three parts under an ideal sensor";
   EXPECT_GT(json[1].at("table_bytes").get<int>(), 0);
+}
+
+TEST(PerceptionPeers, AnswerInTheFrameOfTheView) {
+  const TemporaryFolder folder;
+  write_file(folder.path("scene.yaml"), scene_text(2, "bearing_6914"));
+  for (const EstimatorEntry& peer : peer_registry()) {
+    const ProgramRun run = run_program("bench perception --scene-files " + folder.path("scene.yaml") +
+                                       " --scenes 2 --peer-scenes 1 --sensor ideal --estimator \"" + peer.name +
+                                       " voxel=0.08 best=2\" --estimator oracle --json " + folder.path("out.json"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    const nlohmann::json rows = nlohmann::json::parse(read_file(folder.path("out.json"))).at("rows");
+    EXPECT_EQ(rows[0].at("scenes"), 1) << "asked about more heaps than wanted";
+    EXPECT_EQ(rows[1].at("scenes"), 2);
+    EXPECT_EQ(rows[0].at("recall").at("rate"), 1.0) << peer.name << ": two bearings in full view, no noise";
+    EXPECT_TRUE(rows[1].at("ratio_" + peer.name).is_number());
+    EXPECT_THAT(run.out, HasSubstr("settings voxel: 0.08"));
+  }
 }
 
 TEST_F(PerceptionBenchRun, AWronglyPlacedOracleIsListedAsFailure) {

@@ -20,7 +20,7 @@ struct Options {
   std::vector<std::string> parts, estimators, files, settings;
   std::string scenes_folder = "scenes", seeds, json, calibration, bin_offset, bin_turn;
   int scenes = 10;
-  bool failures = false, ablation = false, peers = false;
+  bool failures = false, ablation = false, peers = false, markdown = false;
 };
 
 /// The shipped scene of a part: scenes/<part>_bin.yaml, or with the first word of the part's name.
@@ -54,7 +54,8 @@ std::vector<ContenderSpec> contenders(const Options& options) {
 void finish(Options& options) {
   for (const std::string& part : options.parts) options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
   if (options.bench.scenes.empty())
-    for (const char* part : {"bearing_6914", "bracket_l"})
+    for (const char* part :
+         {"bearing_6914", "bracket_l", "bolt_m24x80", "gear_m3_z24", "plate_100x60", "shaft_25_35x120"})
       options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
   if (options.bench.sensors.empty()) options.bench.sensors = {"gauss_0.5mm", "d435_848"};
   options.bench.contenders = contenders(options);
@@ -65,13 +66,18 @@ void finish(Options& options) {
   if (!options.seeds.empty()) std::tie(options.bench.first_seed, options.bench.last_seed) = parse_seeds(options.seeds);
 }
 
+std::string table_for(const Options& options, const std::vector<PerceptionRow>& rows) {
+  if (options.ablation) return ablation_table(rows);
+  return options.markdown ? markdown_of(rows) : table_of(rows);
+}
+
 int run(Options options) {
   finish(options);
   if (!options.json.empty()) write_file(options.json, "{\"rows\": []}\n");  // a bad place is known at once
   StderrProgress progress;
   const std::vector<PerceptionRow> rows = bench_perception(options.bench, progress);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
-  if (!options.bench.heaps_only) std::cout << (options.ablation ? ablation_table(rows) : table_of(rows));
+  if (!options.bench.heaps_only) std::cout << table_for(options, rows);
   if (!options.calibration.empty()) std::cout << "\n" << write_calibration(rows, options.calibration);
   if (options.failures) std::cout << failures_of(rows);
   std::cout << std::flush;
@@ -80,7 +86,9 @@ int run(Options options) {
 }
 
 void add_options(CLI::App& command, Options& o) {
-  command.add_option("--parts", o.parts, "parts whose shipped scenes are looked at; default bearing_6914,bracket_l")
+  command
+      .add_option("--parts", o.parts,
+                  "parts whose shipped scenes are looked at; default: the six of the project but the tee")
       ->delimiter(',');
   command.add_option("--scene-files", o.bench.scenes, "scene files, beside or in place of --parts");
   command.add_option("--scenes-folder", o.scenes_folder, "where --parts finds <part>_bin.yaml; default scenes");
@@ -102,6 +110,7 @@ void add_options(CLI::App& command, Options& o) {
   command.add_option("--peer-scenes", o.bench.peer_scenes, "heaps that they are asked about")
       ->check(CLI::Range(1, 100000));
   command.add_flag("--ablation", o.ablation, "each step taken out alone, as Markdown");
+  command.add_flag("--markdown", o.markdown, "the table as Markdown");
   command.add_option("--calibration", o.calibration, "folder for the curve of the scores: CSV and picture");
   command.add_option("--json", o.json, "file for the figures");
 }

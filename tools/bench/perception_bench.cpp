@@ -122,18 +122,27 @@ class SceneBench {
     times.voting = 1e3 * result.wall.voting;
     times.verification = 1e3 * result.wall.verification;
     times.icp = 1e3 * result.wall.icp;
-    if (contender.can_stop_early()) {
-      const Clock first;
-      contender.estimate_first(seen, estimator_seed);
-      times.first = first.wall_ms();
-    }
+    const std::optional<MatchedEstimate> first = first_pose(contender, seen, estimator_seed, times.first);
     const PoseCheck check = context_.checker->check(result, seen.X_WC_believed, seen.truth);
     const LookJudge judge{seen.truth, result, check, sought_, ambiguous_, seen.X_WC_believed};
     for (std::size_t p = 0; p < sought_.size(); ++p) {
       PerceptionRow& row = rows_[k * sought_.size() + p];
       row.looks.push_back(judge.of_part(p, seed));
+      if (first && first_.estimates[first->estimate].part == p) row.looks.back().first_right = first->right;
       row.times.push_back(times);
     }
+  }
+
+  /// The best answer of a search that may stop at the first pose it is sure of; nothing: it gave none.
+  std::optional<MatchedEstimate> first_pose(const Contender& contender, const Observation& seen, Seed seed,
+                                            double& ms) {
+    if (!contender.can_stop_early()) return std::nullopt;
+    const Clock clock;
+    first_ = contender.estimate_first(seen, seed);
+    ms = clock.wall_ms();
+    const PoseCheck check = context_.checker->check(first_, seen.X_WC_believed, seen.truth);
+    if (check.estimates.empty()) return std::nullopt;
+    return check.estimates.front();
   }
 
   const PerceptionBenchConfig& config_;
@@ -144,6 +153,7 @@ class SceneBench {
   std::vector<AmbiguousViews> views_;  ///< of the parts sought
   std::vector<bool> ambiguous_;        ///< instances of the present look
   std::vector<Contender> contenders_;
+  EstimateResult first_;  ///< of the search for one pose
   int looks_ = 0;
   std::vector<PerceptionRow> rows_;
 };

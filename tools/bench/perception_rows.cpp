@@ -34,6 +34,16 @@ Rate first_right(const PerceptionRow& row, bool clear_only) {
   return rate_of(hits, total, wilson_interval(hits, total));
 }
 
+Rate early_right(const PerceptionRow& row) {
+  std::size_t hits = 0, total = 0;
+  for (const LookScore& look : row.looks) {
+    if (!look.first_right) continue;
+    ++total;
+    hits += *look.first_right ? 1 : 0;
+  }
+  return rate_of(hits, total, wilson_interval(hits, total));
+}
+
 double of_right(const PerceptionRow& row, double q, double (*value)(const RightEstimate&)) {
   std::vector<double> values;
   for (const LookScore& look : row.looks)
@@ -72,6 +82,7 @@ RowFigures figures_of(const PerceptionRow& row) {
   out.precision_sure = over_heaps(row, &LookScore::precision_sure, "precision_sure");
   out.top1 = first_right(row, false);
   out.top1_clear = first_right(row, true);
+  out.first = early_right(row);
   add_errors(row, out);
   for (double LookTimes::*which : {&LookTimes::total, &LookTimes::cpu, &LookTimes::first, &LookTimes::preprocess,
                                    &LookTimes::voting, &LookTimes::verification, &LookTimes::icp})

@@ -14,7 +14,7 @@ namespace binpick {
 struct RowFigures {
   Rate recall, recall_clear, recall_partly, recall_tight;  ///< cluster bootstrap over heaps
   Rate precision, precision_clear, precision_sure;         ///< the same
-  Rate top1, top1_clear;                                   ///< Wilson: one a heap
+  Rate top1, top1_clear, first;                            ///< Wilson: one a heap
   double translation_median = 0, translation_p95 = 0, lateral_median = 0, abs_z_median = 0, z_bias = 0;
   double rotation_median = 0, rotation_p95 = 0;
   LookTimes median;
@@ -26,6 +26,8 @@ RowFigures figures_of(const PerceptionRow& row);
 double time_ratio(const PerceptionRow& peer, const PerceptionRow& row);
 
 std::string table_of(std::span<const PerceptionRow> rows);
+/// The same as Markdown.
+std::string markdown_of(std::span<const PerceptionRow> rows);
 /// {"rows": [..]}
 std::string json_of(std::span<const PerceptionRow> rows);
 /// Every missed instance visible >= 0.5 and every wrong estimate, one a line.

@@ -57,15 +57,16 @@ struct ScoredEstimate {
 
 struct LookScore {
   std::uint64_t seed = 0;
-  ClusterCount recall;             ///< instances visible >= 0.5
-  ClusterCount recall_clear;       ///< of those, whose view holds the answer
-  ClusterCount recall_partly;      ///< 0.3 .. 0.5
-  ClusterCount recall_tight;       ///< >= 0.5, at 0.05 diameter
-  ClusterCount precision;          ///< estimates that count
-  ClusterCount precision_clear;    ///< of those, whose nearest instance is not seen ambiguously
-  ClusterCount precision_sure;     ///< of those that count, not flagged as ambiguous by the estimator
-  std::optional<bool> top1;        ///< is the first estimate of this part right? Empty: nothing visible, nothing said
-  bool top1_in_clear_view = true;  ///< its nearest instance is not seen ambiguously
+  ClusterCount recall;              ///< instances visible >= 0.5
+  ClusterCount recall_clear;        ///< of those, whose view holds the answer
+  ClusterCount recall_partly;       ///< 0.3 .. 0.5
+  ClusterCount recall_tight;        ///< >= 0.5, at 0.05 diameter
+  ClusterCount precision;           ///< estimates that count
+  ClusterCount precision_clear;     ///< of those, whose nearest instance is not seen ambiguously
+  ClusterCount precision_sure;      ///< of those that count, not flagged as ambiguous by the estimator
+  std::optional<bool> top1;         ///< is the first estimate of this part right? Empty: nothing visible, nothing said
+  bool top1_in_clear_view = true;   ///< its nearest instance is not seen ambiguously
+  std::optional<bool> first_right;  ///< of the search for one pose only: is it right? Empty: not of this part
   std::vector<RightEstimate> right;
   std::vector<MissedInstance> missed;
   std::vector<WrongEstimate> wrong;

@@ -112,6 +112,7 @@ void add_figures(const RowFigures& f, Json& out) {
   out["precision_unflagged"] = rate_json(f.precision_sure, "counted", "right");
   out["top1"] = rate_json(f.top1, "scenes", "right");
   out["top1_clear_views"] = rate_json(f.top1_clear, "scenes", "right");
+  out["first_right"] = rate_json(f.first, "scenes", "right");
   out["translation_median_m"] = number_json(f.translation_median);
   out["translation_p95_m"] = number_json(f.translation_p95);
   out["lateral_median_m"] = number_json(f.lateral_median);
