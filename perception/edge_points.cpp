@@ -57,7 +57,12 @@ struct Place {
   Place(const Scene& s, int u_px, int v_px) : scene(s), u(u_px), v(v_px), z(s.depth(u, v)) {
     jump = std::max(kLeastJump, 4 * scene.sigma(z));
   }
-  bool behind(int a, int b) const { return !(scene.depth(u + a, v + b) < z + jump); }  // or unknown
+  /// Or unknown, or the known floor, which ends a surface however near it is: a plate that lies flat on it has no depth
+  /// step to speak of.
+  bool behind(int a, int b) const {
+    const float seen = scene.depth(u + a, v + b);
+    return !(seen < z + jump) || (!scene.wanted(u + a, v + b) && seen > z - jump);
+  }
 };
 
 /// Direction in the image in which the scene falls away from a pixel; zero where it does not.

@@ -17,7 +17,10 @@ Seen classify(const Scene& scene, const OutlinePixel& rim, int k, float toleranc
   if (!scene.depth.contains(u, v)) return Seen::kCovered;
   const float z = scene.depth(u, v);
   if (!(z <= rim.z + tolerance)) return Seen::kBehind;  // farther, or unknown as in the shadow of a stereo camera
-  return z < rim.z - tolerance ? Seen::kCovered : Seen::kSurface;
+  if (z < rim.z - tolerance) return Seen::kCovered;
+  // Known floor and walls, and what other parts explain, end a surface however near they are: a plate of 4 mm that lies
+  // on the floor has no depth step to speak of.
+  return scene.wanted(u, v) ? Seen::kSurface : Seen::kBehind;
 }
 
 }  // namespace

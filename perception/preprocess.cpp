@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "perception/floor_mask.hpp"
 #include "perception/floor_offset.hpp"
 #include "perception/organise_cloud.hpp"
 #include "perception/scene_crop.hpp"
@@ -52,6 +53,14 @@ void mark_wanted(Scene& scene, const PreprocessConfig& config) {
     mark_inside({&scene.depth(0, v), v, scene.depth.width()}, rays, box, &scene.wanted(0, v));
 }
 
+/// Where the noise would hide a part that lies flat, neighbours decide together.
+void mark_thin_parts(Scene& scene, const PreprocessConfig& config, double thinnest) {
+  if (!scene.bin || !config.thin_parts) return;
+  const double sigma = scene.noise.sigma(scene.X_CB.translation().z());
+  if (0.5 * thinnest > 3 * sigma) return;
+  mark_low_pixels(scene, {0.5 * thinnest, 1.5 * thinnest + 4 * sigma, config.wall_margin});
+}
+
 void take_frame(const DepthFrame& frame, const PreprocessConfig& config, Scene& scene) {
   const bool crop = scene.bin && !frame.depth.empty();
   DepthFrame part =
@@ -69,6 +78,7 @@ void PreprocessConfig::visit(ConfigVisitor& v) {
   v.field("largest_offset", largest_offset, Unit::kLength, "largest depth offset at the floor that is believed");
   v.field("floor_cut", floor_cut, Unit::kNone, "floor removed up to this many standard deviations of the depth");
   v.field("floor_cut_least", floor_cut_least, Unit::kLength, "floor removed at least up to this height");
+  v.field("thin_parts", thin_parts, "tell parts hardly thicker than the noise from the floor by several pixels");
   v.field("wall_margin", wall_margin, Unit::kLength, "points nearer to a wall are removed");
   v.field("headroom", headroom, Unit::kLength, "height above the rim that is still looked at");
   v.field("near", near, Unit::kLength, "pass-through without a bin: least depth");
@@ -106,6 +116,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
     scene.floor_cut = floor_height(scene, config, thinnest);
   }
   mark_wanted(scene, config);
+  mark_thin_parts(scene, config, thinnest);
   if (std::holds_alternative<DepthFrame>(view.seen)) {
     estimate_normals(scene, normals);
   } else {

@@ -17,9 +17,10 @@ struct PreprocessConfig {
   double largest_offset = 0.012;   ///< m at the floor, larger offsets are not believed
   double floor_cut = 3;            ///< standard deviations of the depth above the floor
   double floor_cut_least = 0.002;  ///< m
-  double wall_margin = 0.005;      ///< m off the walls
-  double headroom = 0.15;          ///< m above the walls' rim that is still looked at
-  double near = 0.05, far = 3.0;   ///< m, depth range where there is no bin
+  bool thin_parts = true;         ///< parts thinner than six standard deviations: a neighbourhood tells floor from part
+  double wall_margin = 0.005;     ///< m off the walls
+  double headroom = 0.15;         ///< m above the walls' rim that is still looked at
+  double near = 0.05, far = 3.0;  ///< m, depth range where there is no bin
 
   void visit(ConfigVisitor& v);
   void validate() const;
