@@ -3,6 +3,7 @@
 #include "core/mesh_properties.hpp"
 #include "core/parallel.hpp"
 #include "perception/edge_points.hpp"
+#include "perception/score_calibration.hpp"
 
 namespace binpick {
 namespace {
@@ -35,6 +36,7 @@ PreparedPart prepare_part(const Part& part, const PpfSettings& settings) {
   p.table = PairTable(voxel_grid(visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
   p.edge_table = PairTable(model_edges(part.mesh_P, visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
   p.surface = SurfaceModel(part.mesh_P, 0.02 * part.diameter, 1.2 * settings.icp.gate * part.diameter);
+  p.twists = symmetry_twists(part.symmetry);
   p.overlaps = self_overlaps(part.mesh_P, part.symmetry, part.diameter);
   return p;
 }

@@ -20,6 +20,7 @@ struct PreparedPart {
   PairTable table, edge_table;
   SurfaceModel surface;
   std::vector<SelfOverlap> overlaps;
+  std::vector<Vector6d> twists;  ///< of a continuous symmetry
 };
 
 PreparedPart prepare_part(const Part& part, const PpfSettings& settings);

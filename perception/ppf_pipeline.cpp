@@ -29,28 +29,22 @@ class Stopwatch {
 };
 
 /// A turn that changes nothing cannot be known: uniform over a whole turn, about the symmetry's axis (twist in P).
-Matrix6d unknowable(const Symmetry& symmetry) {
+Matrix6d unknowable(const std::vector<Vector6d>& twists) {
   Matrix6d out = Matrix6d::Zero();
-  const auto add = [&](const Eigen::Vector3d& point_P, const Eigen::Vector3d& direction_P) {
-    Vector6d twist;
-    twist << point_P.cross(direction_P), direction_P;
-    out += std::numbers::pi * std::numbers::pi / 3 * twist * twist.transpose();
-  };
-  if (symmetry.axis) add(symmetry.axis->point_P, symmetry.axis->direction_P.normalized());
-  for (int k = 0; k < 3 && symmetry.center_P; ++k) add(*symmetry.center_P, Eigen::Vector3d::Unit(k));
+  for (const Vector6d& twist : twists) out += std::numbers::pi * std::numbers::pi / 3 * twist * twist.transpose();
   return out;
 }
 
-PoseEstimate to_estimate(const Candidate& c, const Symmetry& symmetry) {
+PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   PoseEstimate e;
   e.part = c.part;
   e.X_CP = c.fit.X_CP;
-  e.score = std::clamp(c.check.score(), 0.0, 1.0);
+  e.score = c.score;
   e.ambiguous = c.ambiguous;
   e.fit_rms = c.fit.rms;
   const int judged = c.check.inliers + c.check.through + c.check.off + c.check.unknown;
   e.inlier_fraction = judged > 0 ? static_cast<double>(c.check.inliers) / judged : 0;
-  e.covariance = c.fit.covariance + unknowable(symmetry);
+  e.covariance = c.fit.covariance + unknowable(part.twists);
   return e;
 }
 
@@ -179,12 +173,29 @@ std::vector<Candidate> PpfEstimator::first_poses(const Scene& scene, StageTimes&
   return standing;
 }
 
+/// Best first: what the view cannot tell from a twin comes last.
+std::vector<Candidate> PpfEstimator::scored(const Scene& scene, std::vector<Candidate> standing) const {
+  for (Candidate& c : standing) {
+    const PreparedPart& part = parts_[c.part];
+    c.score = calibrated_score(score_features(scene, part.surface, c, part.twists), c.ambiguous);
+  }
+  std::erase_if(standing, [&](const Candidate& c) {  // one of two twins is as good as the pair of them
+    return (c.ambiguous ? 2 : 1) * c.score < settings_.accept.least_score;
+  });
+  std::stable_sort(standing.begin(), standing.end(), [](const Candidate& a, const Candidate& b) {
+    return a.ambiguous != b.ambiguous ? b.ambiguous : a.score > b.score;
+  });
+  return standing;
+}
+
 void PpfEstimator::prepare(std::span<const Part> parts) {
   parts_.clear();
   for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_));
 }
 
-EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const {
+EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const { return estimate_with(view, nullptr); }
+
+EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<ScoreFeatures>* features) const {
   BP_CHECK(!parts_.empty(), "prepare() comes first");
   EstimateResult result;
   Stopwatch total, stage;
@@ -194,8 +205,10 @@ EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const {
   result.wall.preprocess = stage.lap();
   std::vector<Candidate> standing =
       settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);
-  std::stable_partition(standing.begin(), standing.end(), [](const Candidate& c) { return !c.ambiguous; });
-  for (const Candidate& c : standing) result.estimates.push_back(to_estimate(c, parts_[c.part].symmetry));
+  for (const Candidate& c : scored(scene, std::move(standing))) {
+    result.estimates.push_back(to_estimate(c, parts_[c.part]));
+    if (features) features->push_back(score_features(scene, parts_[c.part].surface, c, parts_[c.part].twists));
+  }
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
   result.wall.total = total.lap();
   return result;

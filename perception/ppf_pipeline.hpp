@@ -11,6 +11,7 @@
 
 #include "perception/part_refinement.hpp"
 #include "perception/pose_estimator.hpp"
+#include "perception/score_calibration.hpp"
 
 namespace binpick {
 
@@ -21,6 +22,8 @@ class PpfEstimator : public PoseEstimator {
   void validate() const override { settings_.validate(); }
   void prepare(std::span<const Part> parts) override;
   EstimateResult estimate(const SceneView& view, Seed seed) const override;
+  /// The same, and beside each estimate what its score was made of.
+  EstimateResult estimate_with(const SceneView& view, std::vector<ScoreFeatures>* features) const;
   std::size_t table_bytes() const override {
     std::size_t bytes = 0;
     for (const PreparedPart& part : parts_) bytes += part.table.bytes() + part.edge_table.bytes();
@@ -37,6 +40,7 @@ class PpfEstimator : public PoseEstimator {
   std::vector<Candidate> first_poses(const Scene& scene, StageTimes& wall) const;  ///< search.enough
   bool refine_in_waves(const Scene& scene, std::size_t part, const std::vector<PoseHypothesis>& poses,
                        std::vector<Candidate>& standing) const;
+  std::vector<Candidate> scored(const Scene& scene, std::vector<Candidate> standing) const;
   bool enough(const std::vector<Candidate>& standing) const;
   PpfSettings settings_;
   std::vector<PreparedPart> parts_;

@@ -102,12 +102,13 @@ void AcceptConfig::visit(ConfigVisitor& v) {
   v.field("largest_leak", largest_leak, Unit::kNone, "largest share of the outline at which the surface goes on");
   v.field("least_own", least_own, Unit::kNone, "least share of the inliers that no better pose claims");
   v.field("largest_overlap", largest_overlap, Unit::kNone, "largest share of the surface inside a better pose");
+  v.field("least_score", least_score, Unit::kNone, "least probability of being right of what is returned");
 }
 
 void AcceptConfig::validate() const {
   const auto share = [](double x) { return x >= 0 && x <= 1; };
   if (!share(least_quality) || !share(least_explained) || !share(largest_leak) || !share(least_own) ||
-      !share(largest_overlap))
+      !share(largest_overlap) || !share(least_score))
     throw SpecError("accept: every share must lie between 0 and 1");
   if (least_pixels < 1) throw SpecError("accept.least_pixels: must be at least 1");
 }
@@ -163,10 +164,11 @@ std::vector<Candidate> resolve_conflicts(std::vector<Candidate> candidates,
         own < config.least_explained * c.check.pixels)
       continue;
     const float slack = overlap_slack(scene, c.fit.X_CP);
-    const bool clash = std::any_of(standing.begin(), standing.end(), [&](const Candidate& s) {
-      return overlap(*models[s.part], s.fit.X_CP, *models[c.part], c.fit.X_CP, slack) > config.largest_overlap;
-    });
-    if (clash) continue;
+    c.own = static_cast<double>(own) / std::max(1, c.check.inliers);
+    c.overlap = 0;
+    for (const Candidate& s : standing)
+      c.overlap = std::max(c.overlap, overlap(*models[s.part], s.fit.X_CP, *models[c.part], c.fit.X_CP, slack));
+    if (c.overlap > config.largest_overlap) continue;
     for (const std::uint32_t i : c.check.explained) claimed[i] = 1;
     standing.push_back(std::move(c));
   }

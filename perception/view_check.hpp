@@ -22,6 +22,8 @@ struct AcceptConfig {
   double least_own = 0.6;         ///< of a pose's inliers that no better pose claims
   double largest_overlap = 0.1;   ///< of a pose's surface that may lie inside a better pose
 
+  double least_score = 0.5;  ///< probability that the pose, or its twin, is right: below, it is not returned
+
   void visit(ConfigVisitor& v);
   void validate() const;
 };
@@ -53,6 +55,9 @@ struct Candidate {
   std::size_t part = 0;
   IcpResult fit;
   ViewCheck check;
+  double own = 1;          ///< share of its inliers that no better pose claims
+  double overlap = 0;      ///< share of its surface that lies inside a better pose
+  double score = 0;        ///< calibrated (score_calibration)
   bool settled = false;    ///< its rivals have been tried (rival_poses)
   bool ambiguous = false;  ///< and one of them explains the view as well
 };

@@ -82,8 +82,9 @@ Action add_bench(CLI::App& app) {
                    "instead: this many frames by four threads at once are compared with the same one by one")
       ->check(CLI::Range(1, 1000000));
   sensors->add_option("--json", options->json, "file for the figures");
-  const Action perception = add_bench_perception(*command);
-  return [=] { return sensors->parsed() ? run_sensors(*options) : perception(); };
+  const Action perception = add_bench_perception(*command), score = add_bench_score(*command);
+  const CLI::App* scores = command->get_subcommand("score");
+  return [=] { return sensors->parsed() ? run_sensors(*options) : scores->parsed() ? score() : perception(); };
 }
 
 }  // namespace binpick

@@ -6,5 +6,6 @@
 namespace binpick {
 
 Action add_bench_perception(CLI::App& bench);
+Action add_bench_score(CLI::App& bench);
 
 }  // namespace binpick

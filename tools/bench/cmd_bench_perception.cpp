@@ -11,6 +11,7 @@
 #include "tools/bench/perception_ablation.hpp"
 #include "tools/bench/perception_calibration.hpp"
 #include "tools/bench/perception_rows.hpp"
+#include "tools/bench/perception_score_fit.hpp"
 
 namespace binpick {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 struct Options {
   PerceptionBenchConfig bench;
   std::vector<std::string> parts, estimators, files, settings;
-  std::string scenes_folder = "scenes", seeds, json, calibration, bin_offset, bin_turn;
+  std::string scenes_folder = "scenes", features, seeds, json, calibration, bin_offset, bin_turn;
   int scenes = 10;
   bool failures = false, ablation = false, peers = false, markdown = false;
 };
@@ -73,12 +74,14 @@ std::string table_for(const Options& options, const std::vector<PerceptionRow>& 
 
 int run(Options options) {
   finish(options);
+  options.bench.features = !options.features.empty();
   if (!options.json.empty()) write_file(options.json, "{\"rows\": []}\n");  // a bad place is known at once
   StderrProgress progress;
   const std::vector<PerceptionRow> rows = bench_perception(options.bench, progress);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
   if (!options.bench.heaps_only) std::cout << table_for(options, rows);
   if (!options.calibration.empty()) std::cout << "\n" << write_calibration(rows, options.calibration);
+  if (!options.features.empty()) write_file(options.features, features_csv(rows));
   if (options.failures) std::cout << failures_of(rows);
   std::cout << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
@@ -112,6 +115,7 @@ void add_options(CLI::App& command, Options& o) {
   command.add_flag("--ablation", o.ablation, "each step taken out alone, as Markdown");
   command.add_flag("--markdown", o.markdown, "the table as Markdown");
   command.add_option("--calibration", o.calibration, "folder for the curve of the scores: CSV and picture");
+  command.add_option("--features", o.features, "file for what every score is made of, as `bench score` reads it");
   command.add_option("--json", o.json, "file for the figures");
 }
 

@@ -115,7 +115,8 @@ class SceneBench {
     const Seed estimator_seed = Seed{seed}.child("estimator", 0);
     LookTimes times;
     const Clock clock;
-    const EstimateResult result = contender.estimate(seen, estimator_seed);
+    std::vector<ScoreFeatures> features;
+    const EstimateResult result = contender.estimate(seen, estimator_seed, config_.features ? &features : nullptr);
     times.total = clock.wall_ms();
     times.cpu = Clock::processor_ms() - clock.cpu;
     times.preprocess = 1e3 * result.wall.preprocess;
@@ -129,6 +130,8 @@ class SceneBench {
       PerceptionRow& row = rows_[k * sought_.size() + p];
       row.looks.push_back(judge.of_part(p, seed));
       if (first && first_.estimates[first->estimate].part == p) row.looks.back().first_right = first->right;
+      for (const ScoredEstimate& e : row.looks.back().scored)
+        if (e.estimate < features.size()) row.features.push_back({seed, features[e.estimate], e});
       row.times.push_back(times);
     }
   }
@@ -136,7 +139,7 @@ class SceneBench {
   /// The best answer of a search that may stop at the first pose it is sure of; nothing: it gave none.
   std::optional<MatchedEstimate> first_pose(const Contender& contender, const Observation& seen, Seed seed,
                                             double& ms) {
-    if (!contender.can_stop_early()) return std::nullopt;
+    if (!contender.can_stop_early() || config_.features) return std::nullopt;
     const Clock clock;
     first_ = contender.estimate_first(seen, seed);
     ms = clock.wall_ms();

@@ -21,6 +21,7 @@ struct PerceptionBenchConfig {
   int peer_scenes = 3;  ///< heaps that peers are asked about, the first ones: they take seconds each
   ViewTrouble trouble;
   std::string cache;        ///< folder of heaps at rest; empty: none
+  bool features = false;    ///< keep what the scores are made of (then nobody is asked for a first pose alone)
   bool heaps_only = false;  ///< drop and keep the heaps, look at nothing
 };
 
@@ -29,6 +30,13 @@ struct LookTimes {
   double total = 0, cpu = 0;  ///< wall; processor time of all threads
   double first = 0;           ///< asked for one pickable pose only
   double preprocess = 0, voting = 0, verification = 0, icp = 0;
+};
+
+/// What an estimate's score was made of, and whether it was right.
+struct ScoredFeatures {
+  std::uint64_t seed = 0;
+  ScoreFeatures features{};
+  ScoredEstimate scored;
 };
 
 /// One contender's answers to all looks at one kind of part under one sensor.
@@ -40,9 +48,10 @@ struct PerceptionRow {
   bool peer = false;
   bool has_first = false;
   Training training;
-  std::vector<LookScore> looks;  ///< in the order of the seeds
-  std::vector<LookTimes> times;  ///< the same; of the whole result, all kinds of parts together
-  std::size_t left_out = 0;      ///< heaps that were not at rest inside the bin
+  std::vector<ScoredFeatures> features;  ///< with PerceptionBenchConfig::features
+  std::vector<LookScore> looks;          ///< in the order of the seeds
+  std::vector<LookTimes> times;          ///< the same; of the whole result, all kinds of parts together
+  std::size_t left_out = 0;              ///< heaps that were not at rest inside the bin
 };
 
 std::vector<PerceptionRow> bench_perception(const PerceptionBenchConfig& config, ProgressSink& progress);

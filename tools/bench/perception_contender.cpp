@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "evaluation/statistics.hpp"
+#include "perception/ppf_pipeline.hpp"
 #include "tools/bench/peers/peer.hpp"
 
 namespace binpick {
@@ -132,8 +133,10 @@ std::vector<Training> Contender::prepare(std::span<const Part> parts) {
   return trained;
 }
 
-EstimateResult Contender::estimate(const Observation& seen, Seed seed) const {
-  return estimator_ ? estimator_->estimate(seen.view, seed) : oracle_estimate(seen.truth, parts_, oracle_, seed);
+EstimateResult Contender::estimate(const Observation& seen, Seed seed, std::vector<ScoreFeatures>* features) const {
+  if (!estimator_) return oracle_estimate(seen.truth, parts_, oracle_, seed);
+  const auto* ppf = features ? dynamic_cast<const PpfEstimator*>(estimator_.get()) : nullptr;
+  return ppf ? ppf->estimate_with(seen.view, features) : estimator_->estimate(seen.view, seed);
 }
 
 EstimateResult Contender::estimate_first(const Observation& seen, Seed seed) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "perception/pose_estimator.hpp"
+#include "perception/score_calibration.hpp"
 #include "trials/observation.hpp"
 
 namespace binpick {
@@ -42,7 +43,8 @@ class Contender {
 
   /// Times the preparation of each part alone, then prepares all of them for estimate().
   std::vector<Training> prepare(std::span<const Part> parts);
-  EstimateResult estimate(const Observation& seen, Seed seed) const;
+  /// `features`, when asked for: what each score was made of; left empty by estimators that do not say.
+  EstimateResult estimate(const Observation& seen, Seed seed, std::vector<ScoreFeatures>* features = nullptr) const;
 
   /// Asked for one pickable pose only. False: this estimator knows no such question.
   bool can_stop_early() const { return first_ != nullptr; }

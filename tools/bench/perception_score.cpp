@@ -105,7 +105,8 @@ void add_estimates(const LookJudge& look, std::size_t part, LookScore& score) {
     count(score.precision, e.right);
     if (clear) count(score.precision_clear, e.right);
     if (!flagged) count(score.precision_sure, e.right);
-    score.scored.push_back({e.score, e.right, flagged, look.result.estimates[e.estimate].inlier_fraction, e.fit_rms});
+    score.scored.push_back(
+        {e.score, e.right, flagged, look.result.estimates[e.estimate].inlier_fraction, e.fit_rms, e.estimate});
     if (e.right)
       score.right.push_back(right_estimate(look, e));
     else

@@ -52,7 +52,8 @@ struct ScoredEstimate {
   bool right = false;
   bool ambiguous = false;  ///< flagged by the estimator
   double inlier_fraction = 0;
-  double fit_rms = 0;  ///< m
+  double fit_rms = 0;        ///< m
+  std::size_t estimate = 0;  ///< index in the result
 };
 
 struct LookScore {

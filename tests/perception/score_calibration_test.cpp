@@ -1,0 +1,63 @@
+#include "perception/score_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "perception/pose_estimator.hpp"
+#include "tests/perception/scene_maker.hpp"
+
+namespace binpick {
+namespace {
+
+using namespace testing_scene;
+
+/// A pose that everything speaks for.
+ScoreFeatures good() { return {1, 3.5, 0.95, 0.02, 1, 3.3, 1, 0.02, 0.02, 0, -2.5}; }
+
+TEST(Score, LiesBetweenZeroAndOneAndIsHalvedWhereTwoPosesLookAlike) {
+  EXPECT_EQ(score_feature_names().size(), kScoreFeatures);
+  EXPECT_EQ(std::set<std::string>(score_feature_names().begin(), score_feature_names().end()).size(), kScoreFeatures);
+  const double clear = calibrated_score(good(), false);
+  EXPECT_GT(clear, 0.9);
+  EXPECT_LT(clear, 1);
+  EXPECT_DOUBLE_EQ(calibrated_score(good(), true), clear / 2);
+}
+
+TEST(Score, FallsWithContradictionsLeaksAndOverlap) {
+  const double clear = calibrated_score(good(), false);
+  ScoreFeatures worse = good();
+  worse[1] = 0.7;  // half of what can be judged contradicts
+  EXPECT_LT(calibrated_score(worse, false), clear);
+  worse = good();
+  worse[3] = 0.6;  // the surface goes on at six tenths of the outline
+  EXPECT_LT(calibrated_score(worse, false), clear);
+  worse = good();
+  worse[9] = 0.3;  // three tenths of it inside another pose
+  EXPECT_LT(calibrated_score(worse, false), clear);
+}
+
+TEST(Score, CornersDeviateByTheTranslationAndByTheTurnTimesTheLever) {
+  const Eigen::AlignedBox3f box(Eigen::Vector3f(-0.03f, -0.04f, 0), Eigen::Vector3f(0.03f, 0.04f, 0));
+  Matrix6d covariance = Matrix6d::Identity() * 1e-16;
+  covariance.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() * 1e-6;  // 1 mm each way
+  EXPECT_NEAR(corner_deviation(covariance, box, {}), std::sqrt(3.0) * 1e-3, 1e-6);
+  covariance = Matrix6d::Identity() * 1e-16;
+  covariance(5, 5) = 1e-4;  // 0.01 rad about z, corners 50 mm from it
+  EXPECT_NEAR(corner_deviation(covariance, box, {}), 0.01 * 0.05, 1e-6);
+  EXPECT_LT(corner_deviation(covariance, box, symmetry_twists(ring_part().symmetry)), 1e-5);  // nothing to know there
+}
+
+TEST(Score, OnlyWhatIsMoreLikelyRightThanNotIsReturned) {
+  const Part ring = ring_part();
+  const auto estimator = make_estimator("ppf");
+  estimator->prepare(std::span<const Part>(&ring, 1));
+  const HeapScene scene = make_scene(ring, HeapOptions(), Seed{71}, camera_above(0.6));
+  for (const PoseEstimate& e : estimator->estimate(scene.view, Seed{1}).estimates) {
+    EXPECT_GE(e.score, e.ambiguous ? 0.25 : 0.5);
+    EXPECT_LE(e.score, 1);
+  }
+}
+
+}  // namespace
+}  // namespace binpick
