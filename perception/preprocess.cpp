@@ -20,6 +20,23 @@ void clear_bad_depth(Scene& scene) {
     if (!(z > 0) || !std::isfinite(z)) z = kUnknown;
 }
 
+/// Where the bin stands and what the sensor is off by, from floor and walls; false when too little of them is seen.
+bool locate(Scene& scene, const PreprocessConfig& config) {
+  if (!config.locate.enabled) return false;
+  const LocatedBin located = locate_bin(scene, config.locate);
+  if (!located.found) return false;
+  scene.X_CB = located.X_CB;
+  if (!config.calibrate_floor) return true;
+  scene.floor_offset = located.bias.constant;
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u) {
+      float& z = scene.depth(u, v);
+      const float inverse = 1 / z - static_cast<float>(located.bias.at(scene.camera, u, v));
+      z = inverse > 0 ? 1 / inverse : kUnknown;
+    }
+  return true;
+}
+
 void remove_offset(Scene& scene, double offset) {
   scene.floor_offset = offset;
   if (offset == 0) return;
@@ -81,6 +98,7 @@ void PreprocessConfig::visit(ConfigVisitor& v) {
   v.field("thin_parts", thin_parts, "tell parts hardly thicker than the noise from the floor by several pixels");
   v.field("wall_margin", wall_margin, Unit::kLength, "points nearer to a wall are removed");
   v.field("headroom", headroom, Unit::kLength, "height above the rim that is still looked at");
+  v.section("locate", locate, "the bin's pose and the sensor's bias from floor and walls in view");
   v.field("near", near, Unit::kLength, "pass-through without a bin: least depth");
   v.field("far", far, Unit::kLength, "pass-through without a bin: largest depth");
 }
@@ -95,6 +113,7 @@ void PreprocessConfig::validate() const {
   if (!(wall_margin >= 0 && wall_margin < 0.1))
     throw SpecError("preprocess.wall_margin: must lie between 0 and 100 mm");
   if (!(headroom >= 0 && headroom < 2)) throw SpecError("preprocess.headroom: must lie between 0 and 2 m");
+  locate.validate();
   if (!(near >= 0 && far > near)) throw SpecError("preprocess.near, far: 0 <= near < far is needed");
 }
 
@@ -112,7 +131,8 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   scene.wanted = Image<std::uint8_t>(scene.depth.width(), scene.depth.height(), 0);
   clear_bad_depth(scene);
   if (scene.bin) {
-    if (config.calibrate_floor) remove_offset(scene, floor_offset(scene, config.largest_offset));
+    if (!locate(scene, config) && config.calibrate_floor)
+      remove_offset(scene, floor_offset(scene, config.largest_offset));
     scene.floor_cut = floor_height(scene, config, thinnest);
   }
   mark_wanted(scene, config);

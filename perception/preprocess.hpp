@@ -6,6 +6,7 @@
 #include "core/config.hpp"
 #include "core/point_cloud.hpp"
 #include "core/pose_estimate.hpp"
+#include "perception/bin_localisation.hpp"
 #include "perception/normals.hpp"
 #include "perception/scene.hpp"
 
@@ -21,6 +22,8 @@ struct PreprocessConfig {
   double wall_margin = 0.005;     ///< m off the walls
   double headroom = 0.15;         ///< m above the walls' rim that is still looked at
   double near = 0.05, far = 3.0;  ///< m, depth range where there is no bin
+
+  BinLocalisationConfig locate;  ///< the bin and the disparity's bias from floor and walls
 
   void visit(ConfigVisitor& v);
   void validate() const;
