@@ -132,7 +132,8 @@ std::vector<Candidate> refined_poses(const Scene& scene, const PreparedPart& par
                  [&](std::size_t i) { good[i] = finish(scene, part, wave[i].X_CP, settings, finished[i]); });
     for (std::size_t i = 0; i < wave.size(); ++i) {
       if (!good[i]) continue;
-      standing.push_back({finished[i].fit.X_CP, wave[i].votes});
+      if (finished[i].check.quality() >= settings.accept.sure_quality)
+        standing.push_back({finished[i].fit.X_CP, wave[i].votes});
       out.push_back(std::move(finished[i]));
     }
   }

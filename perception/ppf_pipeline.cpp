@@ -48,17 +48,19 @@ PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   return e;
 }
 
-/// The scene without the pixels that the poses explain.
-Scene unexplained(const Scene& scene, const std::vector<Candidate>& standing) {
+/// The scene without the pixels that sure poses explain.
+Scene unexplained(const Scene& scene, const std::vector<Candidate>& standing, double sure_quality) {
   Scene rest = scene;
   const int width = scene.depth.width();
-  for (const Candidate& c : standing)
+  for (const Candidate& c : standing) {
+    if (c.check.quality() < sure_quality) continue;
     for (const std::uint32_t i : c.check.explained) {
       const int u = static_cast<int>(i) % width, v = static_cast<int>(i) / width;
       for (int b = -kRim; b <= kRim; ++b)
         for (int a = -kRim; a <= kRim; ++a)
           if (rest.wanted.contains(u + a, v + b)) rest.wanted(u + a, v + b) = 0;
     }
+  }
   return rest;
 }
 
@@ -118,7 +120,7 @@ std::vector<Candidate> PpfEstimator::all_poses(const Scene& scene, StageTimes& w
   std::vector<Candidate> standing;
   for (int round = 0; round < settings_.search.rounds; ++round) {
     const std::size_t before = standing.size();
-    const Scene rest = unexplained(scene, standing);
+    const Scene rest = unexplained(scene, standing, settings_.accept.sure_quality);
     for (Candidate& c : search(rest, wall)) standing.push_back(std::move(c));
     Stopwatch stage;
     standing = stand(scene, std::move(standing));

@@ -97,6 +97,8 @@ double leak_of(const Scene& scene, const PartView& view, const CheckConfig& conf
 
 void AcceptConfig::visit(ConfigVisitor& v) {
   v.field("least_quality", least_quality, Unit::kNone, "least inliers / (inliers + contradictions)");
+  v.field("sure_quality", sure_quality, Unit::kNone,
+          "the same, from which a pose keeps the search away from its place");
   v.field("least_explained", least_explained, Unit::kNone, "least inliers / pixels of the whole silhouette");
   v.field("least_pixels", least_pixels, "least number of inlier pixels");
   v.field("largest_leak", largest_leak, Unit::kNone, "largest share of the outline at which the surface goes on");
@@ -107,8 +109,8 @@ void AcceptConfig::visit(ConfigVisitor& v) {
 
 void AcceptConfig::validate() const {
   const auto share = [](double x) { return x >= 0 && x <= 1; };
-  if (!share(least_quality) || !share(least_explained) || !share(largest_leak) || !share(least_own) ||
-      !share(largest_overlap) || !share(least_score))
+  if (!share(least_quality) || !share(sure_quality) || !share(least_explained) || !share(largest_leak) ||
+      !share(least_own) || !share(largest_overlap) || !share(least_score))
     throw SpecError("accept: every share must lie between 0 and 1");
   if (least_pixels < 1) throw SpecError("accept.least_pixels: must be at least 1");
 }

@@ -15,7 +15,8 @@
 namespace binpick {
 
 struct AcceptConfig {
-  double least_quality = 0.75;    ///< inliers / (inliers + contradictions)
+  double least_quality = 0.5;     ///< inliers / (inliers + contradictions)
+  double sure_quality = 0.75;     ///< from here on a pose keeps the search away from its place
   double least_explained = 0.25;  ///< inliers / pixels of the whole silhouette
   int least_pixels = 60;          ///< inliers
   double largest_leak = 0.6;      ///< of the outline that could be judged
