@@ -101,7 +101,7 @@ class SceneBench {
       row.settings = contender.settings();
       row.instances = nothing_there() ? 0 : static_cast<std::size_t>(scenario_.parts[p].count);
       row.peer = contender.is_peer();
-      row.has_first = contender.can_stop_early();
+      row.has_first = config_.ask_first && contender.can_stop_early();
       row.training = training[p];
       rows_.push_back(std::move(row));
     }
@@ -139,7 +139,7 @@ class SceneBench {
   /// The best answer of a search that may stop at the first pose it is sure of; nothing: it gave none.
   std::optional<MatchedEstimate> first_pose(const Contender& contender, const Observation& seen, Seed seed,
                                             double& ms) {
-    if (!contender.can_stop_early() || config_.features) return std::nullopt;
+    if (!config_.ask_first || !contender.can_stop_early()) return std::nullopt;
     const Clock clock;
     first_ = contender.estimate_first(seen, seed);
     ms = clock.wall_ms();

@@ -18,10 +18,11 @@ struct PerceptionBenchConfig {
   std::vector<ContenderSpec> contenders;
   std::uint64_t first_seed = 100, last_seed = 110;  ///< the last is not used
   int threads = 2;
-  int peer_scenes = 3;  ///< heaps that peers are asked about, the first ones: they take seconds each
+  bool ask_first = true;  ///< also for one pickable pose only
+  int peer_scenes = 3;    ///< heaps that peers are asked about, the first ones: they take seconds each
   ViewTrouble trouble;
   std::string cache;        ///< folder of heaps at rest; empty: none
-  bool features = false;    ///< keep what the scores are made of (then nobody is asked for a first pose alone)
+  bool features = false;    ///< keep what the scores are made of
   bool heaps_only = false;  ///< drop and keep the heaps, look at nothing
 };
 
