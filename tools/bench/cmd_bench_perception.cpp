@@ -61,7 +61,7 @@ void finish(Options& options) {
   if (options.bench.sensors.empty()) options.bench.sensors = {"gauss_0.5mm", "d435_848"};
   options.bench.contenders = contenders(options);
   options.bench.last_seed = options.bench.first_seed + static_cast<std::uint64_t>(options.scenes);
-  options.bench.ask_first = !options.ablation && !options.bench.features;
+  options.bench.ask_first = !options.ablation && options.features.empty();
   ViewTrouble& trouble = options.bench.trouble;
   if (!options.bin_offset.empty()) trouble.bin_offset = parse_quantity(options.bin_offset, Unit::kLength);
   if (!options.bin_turn.empty()) trouble.bin_turn = parse_quantity(options.bin_turn, Unit::kAngle);
