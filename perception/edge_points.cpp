@@ -11,7 +11,7 @@ namespace binpick {
 namespace {
 
 constexpr double kSharp = 0.866;      // cosine of 30 degrees between the two faces
-constexpr float kLeastJump = 0.006f;  // m, depth step of an edge
+constexpr float kLeastJump = 0.002f;  // m, depth step of an edge
 constexpr int kHalf = 3;              // px, window in which the outward direction is read
 
 using Key = std::array<double, 3>;

@@ -15,6 +15,11 @@
 
 namespace binpick {
 
-std::unique_ptr<PoseEstimator> make_paper_ppf_estimator() { return std::make_unique<PpfEstimator>(PpfSettings{}); }
+std::unique_ptr<PoseEstimator> make_paper_ppf_estimator() {
+  PpfSettings settings;
+  settings.voting.partners = 0;   // every point around a reference
+  settings.voting.full_cell = 1;  // every vote counts the same
+  return std::make_unique<PpfEstimator>(settings);
+}
 
 }  // namespace binpick

@@ -22,6 +22,14 @@ void OrientedColumns::set(std::size_t i, const OrientedPoint& p) {
   }
 }
 
+std::size_t OrientedColumns::thin(std::size_t count, std::size_t step, std::size_t turn) {
+  if (step < 2) return count;
+  const std::size_t from = turn % step, kept = count > from ? (count - from - 1) / step + 1 : 0;
+  for (std::vector<float>& c : column)
+    for (std::size_t k = 0; k < kept; ++k) c[k] = c[from + k * step];
+  return kept;
+}
+
 PointColumns::PointColumns(const std::vector<OrientedPoint>& points, float cell)
     : first_(2, 0), sorted_(points.size()) {
   if (points.empty()) return;

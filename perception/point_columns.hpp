@@ -20,6 +20,8 @@ struct OrientedColumns {
   std::size_t size() const { return column[0].size(); }
   void resize(std::size_t size);
   void set(std::size_t i, const OrientedPoint& p);
+  /// Of the first `count` points only every `step`-th stays, beginning with number turn modulo step; returns how many.
+  std::size_t thin(std::size_t count, std::size_t step, std::size_t turn);
   PairColumns view() const {
     return {column[0].data(), column[1].data(), column[2].data(), column[3].data(), column[4].data(), column[5].data()};
   }

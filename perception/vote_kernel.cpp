@@ -22,12 +22,12 @@ void cast(const TableView& table, const CellPairs& pairs, Votes* votes) {
     if (k + 2 * kAhead < pairs.count) __builtin_prefetch(table.first + pairs.cell[k + 2 * kAhead]);
     if (k + kAhead < pairs.count) __builtin_prefetch(table.entry + table.first[pairs.cell[k + kAhead]]);
     const std::uint32_t first = table.first[pairs.cell[k]], count = table.first[pairs.cell[k] + 1] - first;
-    if (count <= table.largest) {
+    if (count > table.largest) continue;
+    if (count <= table.full) {
       add_entries(table.entry + first, count, 1, pairs.alpha[k], votes);
-    } else if (table.thin) {
+    } else {
       // Every n-th entry, beginning elsewhere for every pair: over all pairs each entry counts 1/n.
-      const std::uint32_t step = (count + table.largest - 1) / table.largest,
-                          from = static_cast<std::uint32_t>(k) % step;
+      const std::uint32_t step = (count + table.full - 1) / table.full, from = static_cast<std::uint32_t>(k) % step;
       add_entries(table.entry + first + from, count - from, step, pairs.alpha[k], votes);
     }
   }

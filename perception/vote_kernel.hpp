@@ -27,8 +27,8 @@ int compact_pairs(int* cell, int* alpha, int count);
 struct TableView {
   const std::uint32_t* first;
   const PairEntry* entry;
-  std::uint32_t largest;  ///< cells with more entries are skipped, or thinned to about so many
-  bool thin;
+  std::uint32_t largest;  ///< cells with more entries are skipped
+  std::uint32_t full;     ///< cells with more are thinned to about so many, which then weigh less
 };
 
 /// Adds a vote for every entry of every pair's cell. Votes is the accumulator, rows of kAngles.

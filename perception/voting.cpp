@@ -12,7 +12,7 @@
 namespace binpick {
 namespace {
 
-constexpr std::size_t kChunk = 32;  // scene references that share their buffers
+constexpr std::size_t kChunk = 64;  // scene references that share their buffers
 
 /// A row (model reference) and column (alpha) of the accumulator.
 struct Peak {
@@ -40,6 +40,12 @@ std::vector<Peak> peaks_of(const std::vector<Votes>& votes, std::vector<Votes>& 
   return found;
 }
 
+/// Entries up to which a cell's votes count in full (symmetric parts have few counters and crowded cells).
+std::uint32_t full_cell(const PairTable& table, const VotingConfig& config) {
+  const double counters = static_cast<double>(table.references().size()) * kAngles;
+  return static_cast<std::uint32_t>(std::max(1.0, config.full_cell * counters));
+}
+
 /// Votes of one scene reference after another; owns what that takes.
 class Voter {
  public:
@@ -50,13 +56,16 @@ class Voter {
         radius_(static_cast<float>(radius)),
         limits_{table.quantiser().steps(), radius_ * radius_},
         view_{table.first().data(), table.all_entries().data(), static_cast<std::uint32_t>(config.largest_cell),
-              config.thin_cells},
+              full_cell(table, config)},
         partners_(scene.size() + 8),
         cell_(scene.size() + 8),
         alpha_(scene.size() + 8) {}
 
-  std::vector<Peak> peaks(const OrientedPoint& reference) {
-    const std::size_t count = scene_.gather(reference.point, radius_, partners_);
+  /// `turn` only decides which points stay where a dense neighbourhood is thinned.
+  std::vector<Peak> peaks(const OrientedPoint& reference, std::size_t turn) {
+    std::size_t count = scene_.gather(reference.point, radius_, partners_);
+    const auto most = static_cast<std::size_t>(config_.partners);
+    if (most > 0 && count > most) count = partners_.thin(count, (count + most / 2) / most, turn);
     pair_cells(pair_reference(reference), partners_.view(), static_cast<int>(count), limits_, cell_.data(),
                alpha_.data());
     const int pairs = compact_pairs(cell_.data(), alpha_.data(), static_cast<int>(count));
@@ -93,8 +102,10 @@ void VotingConfig::visit(ConfigVisitor& v) {
   v.field("angle_step", angle_step, Unit::kAngle, "step of the pair's angles (paper: 12 deg)");
   v.field("reference_step", reference_step, "every n-th scene point is a reference");
   v.field("pair_radius", pair_radius, Unit::kNone, "longest pair that votes, of the diameter");
+  v.field("partners", partners, "about so many of the points around a reference make pairs with it; 0: all");
   v.field("largest_cell", largest_cell, "table cells with more entries are skipped");
-  v.field("thin_cells", thin_cells, "or thinned to so many entries instead of skipped");
+  v.field("full_cell", full_cell, Unit::kNone,
+          "cells that vote for a larger share of all counters are thinned to it; 1: none are");
   v.field("peaks", peaks, "poses that one reference may give");
   v.field("peak_ratio", peak_ratio, Unit::kNone, "least votes of the further ones, of the best");
 }
@@ -107,6 +118,8 @@ void VotingConfig::validate() const {
   if (!(angle_step >= 0.05 && angle_step <= 1.6)) throw SpecError("voting.angle_step: must lie between 3 and 90 deg");
   if (reference_step < 1) throw SpecError("voting.reference_step: must be at least 1");
   if (!(pair_radius > 0.05 && pair_radius <= 1)) throw SpecError("voting.pair_radius: must lie between 0.05 and 1");
+  if (!(full_cell > 0 && full_cell <= 1)) throw SpecError("voting.full_cell: must lie between 0 and 1");
+  if (partners != 0 && partners < 20) throw SpecError("voting.partners: must be 0 or at least 20");
   if (largest_cell < 1 || peaks < 1) throw SpecError("voting.largest_cell, peaks: must be at least 1");
   if (!(peak_ratio > 0 && peak_ratio <= 1)) throw SpecError("voting.peak_ratio: must lie between 0 and 1");
 }
@@ -143,7 +156,7 @@ std::vector<PoseHypothesis> vote(const PointCloud& scene_C, const PairTable& tab
     Voter voter(columns, table, radius, config);
     for (std::size_t i = part * kChunk; i < std::min(references, (part + 1) * kChunk); ++i) {
       const OrientedPoint& reference = points[(first + i * of) * step];
-      for (const Peak& peak : voter.peaks(reference))
+      for (const Peak& peak : voter.peaks(reference, i))
         parts[part].push_back(
             {pose_from_vote(reference, table.references()[peak.row], peak.column * (2 * std::numbers::pi / kAngles)),
              static_cast<double>(peak.votes)});

@@ -18,8 +18,9 @@ struct VotingConfig {
   double angle_step = 0.20943951;  ///< rad, 12 degrees (paper 4)
   int reference_step = 4;          ///< every n-th scene point is a reference
   double pair_radius = 0.6;        ///< of the diameter: longest pair that votes
+  int partners = 300;              ///< about so many of the points around a reference make pairs with it; 0: all
   int largest_cell = 600;          ///< cells with more entries (coplanar pairs) say little and cost most: skipped
-  bool thin_cells = false;         ///< or thinned to so many entries, which then weigh less, instead of skipped
+  double full_cell = 0.03;         ///< of all counters: cells that vote for more say little; their votes weigh less
   int peaks = 3;                   ///< poses a reference may give
   double peak_ratio = 0.7;         ///< of its best, for the further ones
 

@@ -95,6 +95,26 @@ TEST(PointColumns, GatherEveryPointWithinTheRadius) {
   }
 }
 
+TEST(PointColumns, ThinningTakesEveryPointInItsTurn) {
+  Rng rng(2);
+  const std::vector<OrientedPoint> points = random_points(rng, 103, 0.1);
+  std::set<float> seen;
+  std::size_t all = 0;
+  for (std::size_t turn = 0; turn < 4; ++turn) {
+    OrientedColumns columns(points);
+    const std::size_t kept = columns.thin(103, 4, turn);
+    all += kept;
+    for (std::size_t k = 0; k < kept; ++k) {
+      EXPECT_EQ(columns.column[5][k], points[turn + 4 * k].normal.z());
+      seen.insert(columns.column[0][k]);
+    }
+  }
+  EXPECT_EQ(all, 103u);
+  EXPECT_EQ(seen.size(), 103u);
+  OrientedColumns columns(points);
+  EXPECT_EQ(columns.thin(103, 1, 5), 103u);
+}
+
 TEST(VoteKernel, FindsTheMostOfEveryRow) {
   Rng rng(3);
   std::vector<std::uint16_t> votes(37 * kAngles);
@@ -125,9 +145,9 @@ TEST(VoteKernel, SkipsOrThinsCellsWithTooManyEntries) {
   const std::vector<int> cell(30, 1), alpha(30, 0);
   const CellPairs pairs{cell.data(), alpha.data(), 30};
   std::vector<std::uint16_t> all(100 * kAngles), skipped = all, thinned = all;
-  cast_votes({table.first.data(), table.entries.data(), 100, false}, pairs, all.data());
-  cast_votes({table.first.data(), table.entries.data(), 99, false}, pairs, skipped.data());
-  cast_votes({table.first.data(), table.entries.data(), 10, true}, pairs, thinned.data());
+  cast_votes({table.first.data(), table.entries.data(), 100, 100}, pairs, all.data());
+  cast_votes({table.first.data(), table.entries.data(), 99, 99}, pairs, skipped.data());
+  cast_votes({table.first.data(), table.entries.data(), 100, 10}, pairs, thinned.data());
   EXPECT_EQ(sum(all), 30 * 100);
   EXPECT_EQ(sum(skipped), 0);
   EXPECT_EQ(sum(thinned), 30 * 10);
@@ -141,8 +161,8 @@ TEST(VoteKernel, NarrowAndWideCountersAgree) {
   for (int k = 0; k < 200; ++k) cell[k] = static_cast<int>(rng.below(2)), alpha[k] = static_cast<int>(rng.below(65536));
   std::vector<std::uint16_t> narrow(100 * kAngles);
   std::vector<std::uint32_t> wide(100 * kAngles);
-  cast_votes({table.first.data(), table.entries.data(), 100, false}, {cell.data(), alpha.data(), 200}, narrow.data());
-  cast_votes({table.first.data(), table.entries.data(), 100, false}, {cell.data(), alpha.data(), 200}, wide.data());
+  cast_votes({table.first.data(), table.entries.data(), 100, 100}, {cell.data(), alpha.data(), 200}, narrow.data());
+  cast_votes({table.first.data(), table.entries.data(), 100, 100}, {cell.data(), alpha.data(), 200}, wide.data());
   EXPECT_TRUE(std::equal(narrow.begin(), narrow.end(), wide.begin()));
   EXPECT_GT(sum(narrow), 5000);
 }

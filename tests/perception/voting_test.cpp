@@ -24,6 +24,8 @@ VotingConfig exact_config() {
   VotingConfig config;
   config.reference_step = 1;
   config.pair_radius = 1;
+  config.partners = 0;
+  config.full_cell = 1;
   config.largest_cell = 1 << 30;
   config.peaks = 1;
   return config;
