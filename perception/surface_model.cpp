@@ -4,8 +4,10 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "core/mesh_properties.hpp"
+#include "core/parallel.hpp"
 #include "core/sample_surface.hpp"
 
 namespace binpick {
@@ -22,6 +24,48 @@ std::vector<Eigen::Vector3f> sphere_directions(int count) {
   return out;
 }
 
+constexpr int kThreads = 2;  // for the rays; the masks are put together by view
+
+/// Does the ray meet the triangle, well inside its rim? (Moeller and Trumbore 1997)
+bool surely_hits(const TriangleMesh& mesh, std::uint32_t triangle, const Eigen::Vector3d& origin,
+                 const Eigen::Vector3d& direction) {
+  constexpr double kInside = 1e-6;
+  const auto& t = mesh.triangles[triangle];
+  const Eigen::Vector3d &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+  const Eigen::Vector3d p = direction.cross(ac);
+  const double determinant = ab.dot(p);
+  if (!(std::abs(determinant) > 1e-3 * ab.norm() * ac.norm())) return false;
+  const Eigen::Vector3d from_a = origin - a, q = from_a.cross(ab);
+  const double u = from_a.dot(p) / determinant, v = direction.dot(q) / determinant;
+  return u > kInside && v > kInside && u + v < 1 - kInside && ac.dot(q) / determinant > 0;
+}
+
+/// The views from which every sample can be seen. What hid the last sample from a view is asked first: it hides the
+/// next one, too, more often than not.
+std::vector<SurfaceModel::ViewMask> view_masks(const TriangleMesh& mesh_P, const PointCloud& samples_P, double lift,
+                                               const std::vector<Eigen::Vector3f>& views) {
+  const MeshQuery query(mesh_P);
+  const double far = bounding_box(mesh_P).diagonal().norm();
+  std::vector<std::vector<std::uint8_t>> seen(views.size(), std::vector<std::uint8_t>(samples_P.size(), 0));
+  parallel_for(views.size(), kThreads, [&](std::size_t v) {
+    const Eigen::Vector3d direction = views[v].cast<double>().normalized();
+    std::optional<std::uint32_t> hidden_by;
+    for (std::size_t i = 0; i < samples_P.size(); ++i) {
+      const Eigen::Vector3d& n = samples_P.normals[i];
+      if (!(n.dot(direction) > 0.02)) continue;
+      const Eigen::Vector3d origin = samples_P.points[i] + lift * n;
+      if (hidden_by && surely_hits(mesh_P, *hidden_by, origin, direction)) continue;
+      const auto hit = query.ray(origin, direction, far);
+      if (hit) hidden_by = hit->triangle;
+      seen[v][i] = !hit;
+    }
+  });
+  std::vector<SurfaceModel::ViewMask> masks(samples_P.size(), 0);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (std::size_t i = 0; i < samples_P.size(); ++i) masks[i] |= SurfaceModel::ViewMask{seen[v][i]} << v;
+  return masks;
+}
+
 }  // namespace
 
 SurfaceModel::SurfaceModel(const TriangleMesh& mesh_P, double spacing, double reach)
@@ -30,22 +74,13 @@ SurfaceModel::SurfaceModel(const TriangleMesh& mesh_P, double spacing, double re
   std::vector<std::size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   Seed{0x73757267ull}.rng().shuffle(order);
-  const MeshQuery query(mesh_P);
-  const Eigen::AlignedBox3d box = bounding_box(mesh_P);
-  box_ = box.cast<float>();
-  const double far = box.diagonal().norm();
+  box_ = bounding_box(mesh_P).cast<float>();
+  const std::vector<ViewMask> masks = view_masks(mesh_P, cloud, 1e-3 * spacing, views_);
   for (const std::size_t i : order) {
-    const Eigen::Vector3d& n = cloud.normals[i];
-    const Eigen::Vector3d origin = cloud.points[i] + 1e-3 * spacing * n;
-    ViewMask mask = 0;
-    for (int v = 0; v < kViews; ++v) {
-      const Eigen::Vector3d direction = views_[v].cast<double>().normalized();
-      if (n.dot(direction) > 0.02 && !query.ray(origin, direction, far)) mask |= ViewMask{1} << v;
-    }
-    if (mask == 0) continue;
+    if (masks[i] == 0) continue;
     points_.push_back(cloud.points[i].cast<float>());
-    normals_.push_back(n.cast<float>());
-    masks_.push_back(mask);
+    normals_.push_back(cloud.normals[i].cast<float>());
+    masks_.push_back(masks[i]);
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     radius_ = std::max(radius_, (points_[i] - center()).norm() + spacing_);
