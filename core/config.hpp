@@ -34,6 +34,11 @@ enum class Unit {
   kStiffness
 };
 
+/// Does an item of a command name a file? See ConfigVisitor::command.
+inline bool is_path_item(const std::string& item) {
+  return item.rfind("/", 0) == 0 || item.rfind("./", 0) == 0 || item.rfind("../", 0) == 0;
+}
+
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
@@ -54,6 +59,9 @@ class ConfigVisitor {
                       const char* help) = 0;
   /// A path: read relative to the file that holds it (becoming absolute), written relative to the file that is written.
   virtual void path(const char* key, std::string& value, const char* help) = 0;
+  /// A program and its arguments, a list of texts. Items that begin with `./`, `../` or `/` are paths, as above; a
+  /// program named without a slash is looked for where the shell would.
+  virtual void command(const char* key, std::vector<std::string>& value, const char* help) = 0;
 
   /// A nested mapping.
   template <class Config>

@@ -1,5 +1,4 @@
 // Work that may crash, in a process of its own: a foreign reader that dies on a damaged file takes nobody with it.
-// Private to core.
 #pragma once
 
 #include <functional>

@@ -77,6 +77,12 @@ std::string write_yaml(const std::function<void(ConfigVisitor&)>& body, const st
   return writer.text();
 }
 
+std::string write_yaml(const std::function<void(ConfigVisitor&)>& body, const FileNaming& naming) {
+  YamlWriter writer("", naming);
+  body(writer);
+  return writer.text();
+}
+
 std::string describe_config(const std::function<void(ConfigVisitor&)>& body) {
   ConfigDescriber describer;
   body(describer);

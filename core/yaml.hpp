@@ -16,6 +16,9 @@ void read_yaml_text(const std::string& text, const std::string& name, const std:
                     const std::function<void(ConfigVisitor&)>& body);
 /// Every value, defaults included; paths are written relative to `folder` (empty: as they are).
 std::string write_yaml(const std::function<void(ConfigVisitor&)>& body, const std::string& folder = "");
+/// What stands for a file that an item of a command names, where its place must not matter.
+using FileNaming = std::function<std::string(const std::string& path)>;
+std::string write_yaml(const std::function<void(ConfigVisitor&)>& body, const FileNaming& naming);
 /// A Markdown table of key, default, unit and meaning.
 std::string describe_config(const std::function<void(ConfigVisitor&)>& body);
 

@@ -192,7 +192,23 @@ void YamlReader::path(const char* key, std::string& value, const char*) {
   if (!node) return;
   const std::filesystem::path read = scalar(node, key);
   if (read.empty()) fail_at(node.Mark(), key, "is empty");
-  value = (read.is_absolute() ? read : std::filesystem::path(source_.folder) / read).lexically_normal().string();
+  value = from_here(read);
+}
+
+std::string YamlReader::from_here(const std::filesystem::path& read) const {
+  return (read.is_absolute() ? read : std::filesystem::path(source_.folder) / read).lexically_normal().string();
+}
+
+void YamlReader::command(const char* key, std::vector<std::string>& value, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  if (!node.IsSequence()) fail_at(node.Mark(), key, "must be a list: [program, argument, ..]");
+  value.clear();
+  for (const auto& item : node) {
+    const std::string text = scalar(item, key);
+    if (text.find('\0') != std::string::npos) fail_at(item.Mark(), key, "holds a zero byte");
+    value.push_back(is_path_item(text) ? from_here(text) : text);
+  }
 }
 
 void YamlReader::section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char*) {

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ class YamlReader : public ConfigVisitor {
   void field(const char* key, Pose& value, const char* help) override;
   void choice(const char* key, std::string& value, const std::vector<std::string>& allowed, const char* help) override;
   void path(const char* key, std::string& value, const char* help) override;
+  void command(const char* key, std::vector<std::string>& value, const char* help) override;
   void section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) override;
   void list_with(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
                  const std::function<void(std::size_t, ConfigVisitor&)>& body, const char* help) override;
@@ -50,6 +52,7 @@ class YamlReader : public ConfigVisitor {
   std::vector<double> numbers(const YAML::Node& node, const std::string& key, Unit unit) const;
   std::string scalar(const YAML::Node& node, const std::string& key) const;
   std::string dotted(const std::string& key) const;
+  std::string from_here(const std::filesystem::path& read) const;  ///< absolute; relative ones begin at the file
   [[noreturn]] void fail_at(const YAML::Mark& mark, const std::string& key, const std::string& message) const;
 
   YAML::Node node_;

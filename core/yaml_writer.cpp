@@ -45,7 +45,9 @@ std::string joined(const double* values, std::size_t count) {
 
 }  // namespace
 
-YamlWriter::YamlWriter(std::string folder) : folder_(std::move(folder)) { out_ << YAML::BeginMap; }
+YamlWriter::YamlWriter(std::string folder, FileNaming naming) : folder_(std::move(folder)), naming_(std::move(naming)) {
+  out_ << YAML::BeginMap;
+}
 
 std::string YamlWriter::text() {
   if (!ended_) out_ << YAML::EndMap;
@@ -84,13 +86,24 @@ void YamlWriter::choice(const char* key, std::string& value, const std::vector<s
 }
 void YamlWriter::path(const char* key, std::string& value, const char* help) {
   if (value.empty()) return;  // an unset optional path is left out, as an empty one is refused on reading
-  std::string shown = value;
-  if (!folder_.empty()) {
-    std::error_code error;
-    const std::filesystem::path relative = std::filesystem::relative(value, folder_, error);
-    if (!error && !relative.empty()) shown = relative.string();
+  std::string name = shown(value);
+  field(key, name, help);
+}
+std::string YamlWriter::shown(const std::string& file) const {
+  if (folder_.empty()) return file;
+  std::error_code error;
+  const std::filesystem::path relative = std::filesystem::relative(file, folder_, error);
+  return error || relative.empty() ? file : relative.string();
+}
+void YamlWriter::command(const char* key, std::vector<std::string>& value, const char*) {
+  out_ << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const std::string& item : value) {
+    std::string name = item;
+    if (is_path_item(item)) name = naming_ ? naming_(item) : shown(item);
+    if (is_path_item(item) && !naming_ && !is_path_item(name)) name = "./" + name;  // a path when it is read again
+    out_ << YAML::DoubleQuoted << name;
   }
-  field(key, shown, help);
+  out_ << YAML::EndSeq;
 }
 void YamlWriter::section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char*) {
   out_ << YAML::Key << key << YAML::Value << YAML::BeginMap;
@@ -142,6 +155,11 @@ void ConfigDescriber::choice(const char* key, std::string& value, const std::vec
   row(key, value, ("one of: " + all).c_str(), help);
 }
 void ConfigDescriber::path(const char* key, std::string& value, const char* help) { row(key, value, "path", help); }
+void ConfigDescriber::command(const char* key, std::vector<std::string>& value, const char* help) {
+  std::string all;
+  for (const std::string& item : value) all += (all.empty() ? "" : ", ") + item;
+  row(key, "[" + all + "]", "program and arguments", help);
+}
 void ConfigDescriber::section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) {
   row(key, "", "mapping", help);
   const std::string outer = prefix_;

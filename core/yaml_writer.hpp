@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/yaml.hpp"
 
 namespace binpick {
 
@@ -21,7 +22,7 @@ class ConfigOutput : public ConfigVisitor {
 
 class YamlWriter : public ConfigOutput {
  public:
-  explicit YamlWriter(std::string folder);
+  explicit YamlWriter(std::string folder, FileNaming naming = {});
   std::string text();
 
   void field(const char* key, double& value, Unit unit, const char* help) override;
@@ -33,6 +34,7 @@ class YamlWriter : public ConfigOutput {
   void field(const char* key, Pose& value, const char* help) override;
   void choice(const char* key, std::string& value, const std::vector<std::string>& allowed, const char* help) override;
   void path(const char* key, std::string& value, const char* help) override;
+  void command(const char* key, std::vector<std::string>& value, const char* help) override;
   void section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) override;
   void list_with(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
                  const std::function<void(std::size_t, ConfigVisitor&)>& body, const char* help) override;
@@ -40,7 +42,9 @@ class YamlWriter : public ConfigOutput {
  private:
   void numbers(const char* key, const double* values, std::size_t count);
   YAML::Emitter out_;
+  std::string shown(const std::string& file) const;
   std::string folder_;
+  FileNaming naming_;
   bool ended_ = false;
 };
 
@@ -57,6 +61,7 @@ class ConfigDescriber : public ConfigOutput {
   void field(const char* key, Pose& value, const char* help) override;
   void choice(const char* key, std::string& value, const std::vector<std::string>& allowed, const char* help) override;
   void path(const char* key, std::string& value, const char* help) override;
+  void command(const char* key, std::vector<std::string>& value, const char* help) override;
   void section_with(const char* key, const std::function<void(ConfigVisitor&)>& body, const char* help) override;
   void list_with(const char* key, std::size_t size, const std::function<void(std::size_t)>& resize,
                  const std::function<void(std::size_t, ConfigVisitor&)>& body, const char* help) override;

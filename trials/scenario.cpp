@@ -196,7 +196,12 @@ std::string scenario_hash(const Scenario& scenario) {
     content(entry.spec.pieces);
   }
   content(copy.cell.arm_path);
-  return hex(Hasher().add(write_yaml([&](ConfigVisitor& v) { copy.visit(v); })).value());
+  const FileNaming by_content = [&](const std::string& path) {
+    std::string name = path;
+    content(name);
+    return name;
+  };
+  return hex(Hasher().add(write_yaml([&](ConfigVisitor& v) { copy.visit(v); }, by_content)).value());
 }
 
 }  // namespace binpick
