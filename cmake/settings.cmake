@@ -13,7 +13,10 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 
 add_library(binpick_flags INTERFACE)
 target_compile_options(binpick_flags INTERFACE
-  -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Werror)
+  "$<BUILD_INTERFACE:-ffp-contract=off;-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-psabi;-Werror>")
+# Eigen's values cross the library's surface: whoever links it must lay them out as it was built, whatever his -march.
+target_compile_definitions(binpick_flags INTERFACE "$<INSTALL_INTERFACE:EIGEN_MAX_ALIGN_BYTES=16>")
+set_target_properties(binpick_flags PROPERTIES EXPORT_NAME flags)
 target_include_directories(binpick_flags INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/binpick>")
 # For kernels in .cpp files of their own, without Eigen or PCL: wide registers. A fused multiplication would change bits
