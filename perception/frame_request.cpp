@@ -1,5 +1,6 @@
 #include "perception/frame_request.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -27,19 +28,6 @@ struct PartItem {
   }
 };
 
-void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
-  v.section_with(
-      "noise",
-      [&](ConfigVisitor& in) {
-        in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
-        in.field("linear", noise.linear, Unit::kNone, "m per m");
-        in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
-        in.field("fattening_px", noise.fattening_px, Unit::kNone,
-                 "how far foreground grows over its outline, in pixels");
-      },
-      "the noise that the camera's data sheet states");
-}
-
 // The seed is a 64-bit key: as text, since a YAML number here is a double or an int.
 void visit_seed(ConfigVisitor& v, Seed& seed) {
   std::string text = std::to_string(seed.key);
@@ -56,6 +44,29 @@ void visit_seed(ConfigVisitor& v, Seed& seed) {
 
 }  // namespace
 
+void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
+  v.section_with(
+      "noise",
+      [&](ConfigVisitor& in) {
+        in.field("constant", noise.constant, Unit::kLength, "sigma_z = constant + linear z + quadratic z^2");
+        in.field("linear", noise.linear, Unit::kNone, "m per m");
+        in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
+        in.field("fattening_px", noise.fattening_px, Unit::kNone,
+                 "how far foreground grows over its outline, in pixels");
+      },
+      "the noise that the camera's data sheet states");
+}
+
+void validate_noise(const StatedNoise& noise) {
+  // A fitted parabola may have a negative coefficient; it may not promise negative noise where cameras look.
+  for (const double value : {noise.constant, noise.linear, noise.quadratic})
+    if (!(std::abs(value) < 1)) throw SpecError("noise: constant, linear and quadratic must lie between -1 and 1");
+  for (const double z : {0.3, 0.6, 1.0, 2.0})
+    if (!(noise.sigma(z) >= 0)) throw SpecError("noise: constant + linear z + quadratic z^2 must not be negative");
+  if (!(noise.fattening_px >= 0 && noise.fattening_px < 50))
+    throw SpecError("noise.fattening_px: must lie between 0 and 50 pixels");
+}
+
 void FrameRequest::visit(ConfigVisitor& v) {
   v.section("camera", camera, "intrinsics of depth.tiff");
   visit_noise(v, noise);
@@ -68,6 +79,7 @@ void FrameRequest::visit(ConfigVisitor& v) {
     v.field("X_CB", X_CB, "believed pose of the bin (centre of its inner floor, z up) in the camera frame");
   }
   visit_seed(v, seed);
+  v.field("time_limit", time_limit, Unit::kTime, "wall clock that an external estimator has; 0: none stated");
   if (v.reading()) estimator = nullptr;
   v.section_with(
       "estimator",
@@ -82,6 +94,7 @@ void FrameRequest::visit(ConfigVisitor& v) {
 
 void FrameRequest::validate() const {
   camera.validate();
+  validate_noise(noise);
   if (parts.empty()) throw SpecError("parts: at least one part must be named");
   for (const PartSpec& part : parts) part.validate();
   if (has_bin) bin.validate();
@@ -133,19 +146,6 @@ void write_frame_folder(const std::string& folder, const FrameRequest& request, 
   } else {
     write_cloud_ply(folder + "/" + kCloudFile, std::get<PointCloud>(view.seen), "frame C, metres");
   }
-}
-
-std::string estimates_csv(const EstimateResult& result) {
-  std::string text = "part,score,fit_rms,inlier_fraction,r11,r12,r13,r21,r22,r23,r31,r32,r33,tx,ty,tz\n";
-  for (const PoseEstimate& e : result.estimates) {
-    text += std::to_string(e.part);
-    for (const double value : {e.score, e.fit_rms, e.inlier_fraction}) text += "," + format_double(value);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) text += "," + format_double(e.X_CP.linear()(r, c));
-    for (int i = 0; i < 3; ++i) text += "," + format_double(e.X_CP.translation()[i]);
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace binpick

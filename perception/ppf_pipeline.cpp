@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <numbers>
 
 #include "core/check.hpp"
 #include "perception/part_search.hpp"
+#include "perception/symmetry_covariance.hpp"
 
 namespace binpick {
 namespace {
@@ -27,13 +27,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-/// A turn that changes nothing cannot be known: uniform over a whole turn, about the symmetry's axis (twist in P).
-Matrix6d unknowable(const std::vector<Vector6d>& twists) {
-  Matrix6d out = Matrix6d::Zero();
-  for (const Vector6d& twist : twists) out += std::numbers::pi * std::numbers::pi / 3 * twist * twist.transpose();
-  return out;
-}
 
 PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   PoseEstimate e;

@@ -6,6 +6,7 @@ namespace binpick {
 
 std::unique_ptr<PoseEstimator> make_ppf_estimator();
 std::unique_ptr<PoseEstimator> make_paper_ppf_estimator();
+std::unique_ptr<PoseEstimator> make_external_estimator();
 
 const std::vector<EstimatorEntry>& estimator_registry() {
   static const std::vector<EstimatorEntry> entries = {
@@ -13,6 +14,8 @@ const std::vector<EstimatorEntry>& estimator_registry() {
        make_ppf_estimator},
       {"paper_ppf", "the paper's pipeline: point pair features of the CAD, Hough voting, verification, ICP",
        make_paper_ppf_estimator},
+      {"external", "any program: a folder with the frame goes out, a table of poses comes back",
+       make_external_estimator},
   };
   return entries;
 }

@@ -7,24 +7,18 @@
 
 #include "core/pose_estimate.hpp"
 #include "perception/frame_request.hpp"
+#include "perception/overlay.hpp"
 #include "sim/depth_sensor.hpp"
 #include "trials/cell_world.hpp"
 
 namespace binpick {
 
-/// Colour-mapped depth: near is warm, far is cold, no return is black.
-Image<Rgb> depth_picture(const DepthFrame& frame);
-
 /// Depth error at the ends of noise_picture's scale at depth z: three standard deviations as stated, or 1 mm where the
 /// sensor states none.
 double noise_scale(const StatedNoise& noise, double z);
-/// Depth less exact depth: blue nearer, white right, red farther, full colour at noise_scale(); grey: exact depth but no
-/// return; black: nothing there; magenta: a return where nothing is.
+/// Depth less exact depth: blue nearer, white right, red farther, full colour at noise_scale(); grey: exact depth but
+/// no return; black: nothing there; magenta: a return where nothing is.
 Image<Rgb> noise_picture(const DepthFrame& frame, const Image<float>& exact_depth);
-
-/// Outlines and tints of the estimates over a picture taken from the same camera, numbered best first.
-Image<Rgb> overlay_picture(const Image<Rgb>& base, const DepthFrame& frame, const std::vector<PoseEstimate>& estimates,
-                           std::span<const Part> parts);
 
 /// Collects the pictures of one trial in a folder. A failure to write throws StorageError.
 class TrialPictures {
