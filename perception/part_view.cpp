@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/zbuffer.hpp"
 
@@ -59,6 +60,30 @@ PartView draw_part(const PinholeCamera& camera, const SurfaceModel& model, const
   view.depth = buffer.result().depth;
   for (const float z : view.depth) view.pixels += std::isfinite(z);
   return view;
+}
+
+PartView grown(const PartView& view, int px) {
+  const int border = 2 * px + 1, width = view.depth.width(), height = view.depth.height();
+  constexpr float kOutside = std::numeric_limits<float>::infinity();
+  Image<float> wide(width + 2 * border, height + 2 * border, kOutside), rows = wide;
+  for (int v = 0; v < height; ++v) std::copy_n(&view.depth(0, v), width, &wide(border, v + border));
+  const int stride = wide.width();
+  const auto nearest_along = [&](const Image<float>& from, Image<float>& to, int step) {
+    for (int v = px; v < wide.height() - px; ++v)
+      for (int k = -px; k <= px; ++k) {
+        float* out = &to(px, v);
+        const float* in = &from(px, v) + k * step;
+        for (int i = 0; i < stride - 2 * px; ++i) out[i] = std::min(out[i], in[i]);
+      }
+  };
+  nearest_along(wide, rows, 1);
+  std::fill(wide.begin(), wide.end(), kOutside);
+  nearest_along(rows, wide, stride);
+  PartView out = view;
+  out.u0 -= border;
+  out.v0 -= border;
+  out.depth = std::move(wide);
+  return out;
 }
 
 std::vector<OutlinePixel> outline_of(const PartView& view) {

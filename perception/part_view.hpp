@@ -24,6 +24,10 @@ struct PartView {
 /// Empty when the part lies wholly outside the image or reaches behind the camera.
 PartView draw_part(const PinholeCamera& camera, const SurfaceModel& model, const Pose& X_CP);
 
+/// The same as a sensor shows it whose foreground grows by some pixels: gaps narrower than twice as much close.
+/// `pixels` stays that of the part.
+PartView grown(const PartView& view, int px);
+
 struct OutlinePixel {
   int u = 0, v = 0;
   float z = 0;                                         ///< m, the model's depth there

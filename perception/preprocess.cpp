@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "perception/floor_mask.hpp"
 #include "perception/floor_offset.hpp"
+#include "perception/noise_correlation.hpp"
 #include "perception/organise_cloud.hpp"
 #include "perception/scene_crop.hpp"
 
@@ -142,6 +143,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   } else {
     drop_disagreeing_normals(scene, normals);
   }
+  scene.correlated_px = pixels_per_noise_value(scene);
   return scene;
 }
 

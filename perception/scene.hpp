@@ -24,9 +24,10 @@ struct Scene {
   StatedNoise noise;
   std::optional<BinSpec> bin;
   Pose X_CB = Pose::Identity();
-  double floor_offset = 0;  ///< 1/m, what the floor showed the inverse depth to be off by (already removed)
-  int threads = 1;          ///< that a stage may use; results are put together by index
-  double floor_cut = 0;     ///< m, points lower than this above the bin's floor are not wanted
+  double floor_offset = 0;   ///< 1/m, what the floor showed the inverse depth to be off by (already removed)
+  int threads = 1;           ///< that a stage may use; results are put together by index
+  double correlated_px = 1;  ///< pixels that share one noise value, as measured in this frame
+  double floor_cut = 0;      ///< m, points lower than this above the bin's floor are not wanted
 
   Eigen::Vector3f point(int u, int v, float z) const {
     return {(static_cast<float>(u) - static_cast<float>(camera.cx)) / static_cast<float>(camera.fx) * z,

@@ -1,6 +1,7 @@
 #include "perception/surface_kernel.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "perception/lanes.hpp"
 
@@ -9,8 +10,9 @@ namespace {
 
 using namespace lanes;
 
-constexpr int kBlock = 64;   // points between two additions in double
-constexpr int kTerms = 30;   // 21 + 6 + 3
+constexpr int kBlock = 64;  // points between two additions in double
+constexpr int kTerms = 30;  // 21 + 6 + 3
+constexpr std::int32_t kNone[2] = {-1, -1};
 const SurfacePoint kUnseen;  // stands for "no surface point near"
 
 /// A block of scene points in P with their nearest surface points beside them.
@@ -46,8 +48,10 @@ void to_model_frame(const ScenePointsView& scene, int first, int count, const Su
 
 void look_up(const SurfaceGrid& grid, int view, int count, Block& block) {
   for (int i = 0; i < count; ++i) {
-    const std::int32_t index = block.cell[i] < 0 ? -1 : grid.cells[block.cell[i]];
-    const SurfacePoint& near = index < 0 ? kUnseen : grid.points[index];
+    const std::int32_t* pair = block.cell[i] < 0 ? kNone : grid.cells + 2 * static_cast<std::ptrdiff_t>(block.cell[i]);
+    const SurfacePoint& first = pair[0] < 0 ? kUnseen : grid.points[pair[0]];
+    const bool turn = pair[1] >= 0 && ((first.views >> view) & 1u) == 0;
+    const SurfacePoint& near = turn ? grid.points[pair[1]] : first;
     for (int k = 0; k < 3; ++k) {
       block.q[k][i] = near.p[k];
       block.n[k][i] = near.n[k];

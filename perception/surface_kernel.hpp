@@ -18,7 +18,8 @@ struct SurfacePoint {
 };
 static_assert(sizeof(SurfacePoint) == 32);
 
-/// "Which surface point is nearest": a grid of indices, -1 beyond the reach.
+/// "Which surface point is nearest": a grid of pairs of indices, -1 beyond the reach. The second of a pair is the
+/// nearest point that faces the other way than the first: the one meant when the first cannot be seen (thin sheets).
 struct SurfaceGrid {
   const std::int32_t* cells = nullptr;
   const SurfacePoint* points = nullptr;

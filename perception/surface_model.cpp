@@ -192,6 +192,26 @@ TriangleMesh SurfaceModel::shell_facing(const Eigen::Vector3d& eye_P) const {
   return facing;
 }
 
+/// visit(cell, point, squared distance of the cell's centre) for every point and the cells around it.
+template <class Visit>
+void SurfaceModel::for_cells_within(float reach, Visit&& visit) const {
+  const float cell = spacing_;
+  const int steps = static_cast<int>(std::ceil(reach / cell));
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Eigen::Array3i c = ((points_[k] - low_).array() * inverse_cell_).cast<int>();
+    const Eigen::Array3i from = (c - steps).max(0), to = (c + steps).min(size_.array() - 1);
+    for (int z = from.z(); z <= to.z(); ++z)
+      for (int y = from.y(); y <= to.y(); ++y) {
+        const std::size_t row = (static_cast<std::size_t>(z) * size_.y() + y) * size_.x();
+        for (int x = from.x(); x <= to.x(); ++x) {
+          const Eigen::Vector3f center = low_ + cell * Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f);
+          const float d = (center - points_[k]).squaredNorm();
+          if (d < reach * reach) visit(row + x, k, d);
+        }
+      }
+  }
+}
+
 void SurfaceModel::build_field(float reach) {
   const float cell = spacing_;
   inverse_cell_ = 1 / cell;
@@ -200,24 +220,21 @@ void SurfaceModel::build_field(float reach) {
       ((box_.max() - box_.min()).array() + 2 * reach).cwiseQuotient(Eigen::Array3f::Constant(cell)).ceil().cast<int>();
   size_.array() += 1;
   limit_ = size_.cast<float>().array();
-  field_.assign(static_cast<std::size_t>(size_.prod()), -1);
-  std::vector<float> nearest(field_.size(), reach * reach);
-  const int steps = static_cast<int>(std::ceil(reach / cell));
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const Eigen::Array3i c = ((points_[k] - low_).array() * inverse_cell_).cast<int>();
-    const Eigen::Array3i from = (c - steps).max(0), to = (c + steps).min(size_.array() - 1);
-    for (int z = from.z(); z <= to.z(); ++z)
-      for (int y = from.y(); y <= to.y(); ++y)
-        for (int x = from.x(); x <= to.x(); ++x) {
-          const Eigen::Vector3f center = low_ + cell * Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f);
-          const float d = (center - points_[k]).squaredNorm();
-          const std::size_t i = (static_cast<std::size_t>(z) * size_.y() + y) * size_.x() + x;
-          if (d < nearest[i]) {
-            nearest[i] = d;
-            field_[i] = static_cast<std::int32_t>(k);
-          }
-        }
-  }
+  const auto count = static_cast<std::size_t>(size_.prod());
+  field_.assign(2 * count, -1);
+  std::vector<float> nearest(count, reach * reach);
+  for_cells_within(reach, [&](std::size_t i, std::size_t k, float d) {
+    if (d >= nearest[i]) return;
+    nearest[i] = d;
+    field_[2 * i] = static_cast<std::int32_t>(k);
+  });
+  // In a sheet the nearest point may lie on the side that no camera sees: the other side's is kept beside it.
+  std::fill(nearest.begin(), nearest.end(), reach * reach);
+  for_cells_within(reach, [&](std::size_t i, std::size_t k, float d) {
+    if (d >= nearest[i] || normals_[k].dot(normals_[field_[2 * i]]) >= 0) return;
+    nearest[i] = d;
+    field_[2 * i + 1] = static_cast<std::int32_t>(k);
+  });
 }
 
 }  // namespace binpick

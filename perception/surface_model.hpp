@@ -49,13 +49,15 @@ class SurfaceModel {
     const Eigen::Array3f c = (p_P - low_).array() * inverse_cell_;
     if (!((c >= 0.0f).all() && (c < limit_).all())) return -1;
     const Eigen::Array3i i = c.cast<int>();
-    return field_[(static_cast<std::size_t>(i.z()) * size_.y() + i.y()) * size_.x() + i.x()];
+    return field_[2 * ((static_cast<std::size_t>(i.z()) * size_.y() + i.y()) * size_.x() + i.x())];
   }
 
  private:
   void build_shell(const TriangleMesh& mesh_P);
   bool shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const;
   void build_field(float reach);
+  template <class Visit>
+  void for_cells_within(float reach, Visit&& visit) const;
   void pack();
   std::vector<Eigen::Vector3f> points_, normals_;
   std::vector<ViewMask> masks_;
@@ -68,7 +70,7 @@ class SurfaceModel {
   Eigen::Vector3f low_ = Eigen::Vector3f::Zero();
   Eigen::Array3f limit_ = Eigen::Array3f::Zero();
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
-  std::vector<std::int32_t> field_;
+  std::vector<std::int32_t> field_;  // for every cell the nearest point, and the nearest that faces the other way
   std::vector<SurfacePoint> packed_;
   struct PackedView {
     std::vector<float> numbers;  // six stretches: x y z, normal x y z

@@ -43,6 +43,13 @@ void fill(const Eigen::Isometry3f& X, float (&R)[9], float (&p)[3]) {
   }
 }
 
+/// The second point of the pair in the grid.
+int other_side(const SurfaceGrid& grid, const Eigen::Vector3f& p) {
+  int c[3];
+  for (int k = 0; k < 3; ++k) c[k] = static_cast<int>((p[k] - grid.low[k]) * grid.inverse_cell);
+  return grid.cells[2 * ((c[2] * grid.size[1] + c[1]) * grid.size[0] + c[0]) + 1];
+}
+
 TEST(SurfaceKernel, AddsUpThePlainNormalEquations) {
   const Heap& h = heap();
   Rng rng = Seed{3}.rng();
@@ -68,7 +75,9 @@ TEST(SurfaceKernel, AddsUpThePlainNormalEquations) {
       const Eigen::Vector3f p_C(view.x[i], view.y[i], view.z[i]), s_C(view.nx[i], view.ny[i], view.nz[i]);
       if (!p_C.allFinite()) continue;
       const Eigen::Vector3f p = X_PC * p_C;
-      const int k = h.surface.nearest(p);
+      int k = h.surface.nearest(p);
+      if (k < 0) continue;
+      if (!h.surface.visible(static_cast<std::size_t>(k), query.view)) k = other_side(h.surface.grid(), p);
       if (k < 0 || !h.surface.visible(static_cast<std::size_t>(k), query.view)) continue;
       const Eigen::Vector3d q = h.surface.points()[k].cast<double>(), n = h.surface.normals()[k].cast<double>();
       const Eigen::Vector3d off = p.cast<double>() - q;
