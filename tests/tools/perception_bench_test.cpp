@@ -1,5 +1,5 @@
-// binpick bench perception: heaps that are kept are the trial's heaps to the bit, the oracle is always right, figures
-// known on paper, the JSON that scripts read, and what a user can get wrong.
+// binpick bench perception: heaps that are kept are the trial's heaps to the bit, figures known on paper,
+// settings read strictly.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "tests/tools/few_parts.hpp"
 #include "tests/tools/run_program.hpp"
 #include "tools/bench/peers/peer.hpp"
 #include "tools/bench/perception_ablation.hpp"
@@ -21,15 +22,7 @@
 namespace binpick {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
-
-const std::string kRoot = BINPICK_SOURCE_DIR;
-
-std::string scene_text(int count, const std::string& part = "tee") {
-  return "name: few_parts\npart: " + kRoot + "/assets/parts/" + part + "/part.yaml\ncount: " + std::to_string(count) +
-         "\ncell: " + kRoot + "/assets/cells/mz07_one_cup.yaml\nestimator: {type: oracle}\n";
-}
 
 /// A scene of a few parts, ready to drop.
 struct FewTees {
@@ -209,107 +202,6 @@ TEST(PerceptionBench, SensorNamesMayBeShort) {
   EXPECT_EQ(full_sensor_name("active_stereo:d435_848"), "active_stereo:d435_848");
   EXPECT_EQ(full_sensor_name("ideal"), "ideal");
   EXPECT_THROW(full_sensor_name("d999"), SpecError);
-}
-
-class PerceptionBenchRun : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder();
-    write_file(folder_->path("scene.yaml"), scene_text(3));
-  }
-  static void TearDownTestSuite() { delete folder_; }
-  static ProgramRun run(const std::string& more) {
-    return run_program("bench perception --scene-files " + folder_->path("scene.yaml") + " --scenes 2 --cache " +
-                       folder_->path("heaps") + " --json " + folder_->path("out.json") + " " + more);
-  }
-  static nlohmann::json rows() { return nlohmann::json::parse(read_file(folder_->path("out.json"))).at("rows"); }
-  static TemporaryFolder* folder_;
-};
-TemporaryFolder* PerceptionBenchRun::folder_ = nullptr;
-
-TEST_F(PerceptionBenchRun, TheOracleIsAlwaysRightAndTheRowsHaveEveryKey) {
-  const ProgramRun oracle = run("--sensor ideal --estimator oracle --estimator ppf");
-  ASSERT_EQ(oracle.code, 0) << oracle.err;
-  const nlohmann::json json = rows();
-  ASSERT_EQ(json.size(), 2u);
-  for (const nlohmann::json& row : json) {
-    for (const char* key : {"part",
-                            "sensor",
-                            "scenes",
-                            "recall",
-                            "precision",
-                            "top1",
-                            "translation_median_m",
-                            "rotation_median_rad",
-                            "total_ms",
-                            "first_ms",
-                            "train_ms",
-                            "table_bytes",
-                            "ratio_opencv",
-                            "ratio_pcl",
-                            "estimator",
-                            "missed",
-                            "wrong",
-                            "settings",
-                            "stage_ms",
-                            "z_bias_m"})
-      EXPECT_TRUE(row.contains(key)) << key;
-    EXPECT_EQ(row.at("part"), "tee");
-    EXPECT_EQ(row.at("scenes"), 2);
-    EXPECT_TRUE(row.at("ratio_opencv").is_null()) << "no peer took part";
-  }
-  EXPECT_EQ(json[0].at("recall").at("rate"), 1.0);
-  EXPECT_EQ(json[0].at("precision").at("rate"), 1.0);
-  EXPECT_EQ(json[0].at("top1").at("rate"), 1.0);
-  EXPECT_LT(json[0].at("translation_median_m").get<double>(), 1e-12);
-  EXPECT_TRUE(json[0].at("missed").empty());
-  EXPECT_GT(json[0].at("recall").at("visible").get<int>(), 0);
-  EXPECT_EQ(json[1].at("recall").at("visible"), json[0].at("recall").at("visible")) << "not the same looks";
-  EXPECT_EQ(json[1].at("recall").at("rate"), 1.0) << "three parts under an ideal sensor";
-  EXPECT_GT(json[1].at("table_bytes").get<int>(), 0);
-}
-
-TEST(PerceptionPeers, AnswerInTheFrameOfTheView) {
-  const TemporaryFolder folder;
-  write_file(folder.path("scene.yaml"), scene_text(2, "bearing_6914"));
-  for (const EstimatorEntry& peer : peer_registry()) {
-    const ProgramRun run = run_program("bench perception --scene-files " + folder.path("scene.yaml") +
-                                       " --scenes 2 --peer-scenes 1 --sensor ideal --estimator \"" + peer.name +
-                                       " voxel=0.08 best=2\" --estimator oracle --json " + folder.path("out.json"));
-    ASSERT_EQ(run.code, 0) << run.err;
-    const nlohmann::json rows = nlohmann::json::parse(read_file(folder.path("out.json"))).at("rows");
-    EXPECT_EQ(rows[0].at("scenes"), 1) << "asked about more heaps than wanted";
-    EXPECT_EQ(rows[1].at("scenes"), 2);
-    EXPECT_EQ(rows[0].at("recall").at("rate"), 1.0) << peer.name << ": two bearings in full view, no noise";
-    EXPECT_TRUE(rows[1].at("ratio_" + peer.name).is_number());
-    EXPECT_THAT(run.out, HasSubstr("settings voxel: 0.08"));
-  }
-}
-
-TEST_F(PerceptionBenchRun, AWronglyPlacedOracleIsListedAsFailure) {
-  const ProgramRun oracle = run("--sensor ideal --estimator \"oracle translation_error=0.1\" --failures");
-  ASSERT_EQ(oracle.code, 0) << oracle.err;
-  const nlohmann::json row = rows().at(0);
-  EXPECT_LT(row.at("precision").at("rate").get<double>(), 1.0);
-  EXPECT_EQ(row.at("wrong").size(),
-            row.at("precision").at("counted").get<std::size_t>() - row.at("precision").at("right").get<std::size_t>());
-  EXPECT_EQ(row.at("missed").size(),
-            row.at("recall").at("visible").get<std::size_t>() - row.at("recall").at("found").get<std::size_t>());
-  EXPECT_THAT(oracle.out, HasSubstr("wrong   rank 0"));
-}
-
-TEST_F(PerceptionBenchRun, BadArgumentsAreOneLineAndExitTwo) {
-  for (const std::string bad : {"--estimator ppff", "--estimator \"ppf search.edgse=false\"",
-                                "--set search.rounds=none", "--sensor d999", "--parts washer", "--seeds 5:5",
-                                "--bin-offset \"5 deg\"", "--other-part nowhere.yaml", "--estimator-file no.yaml"}) {
-    const ProgramRun wrong = run(bad);
-    EXPECT_EQ(wrong.code, 2) << bad << wrong.err;
-    EXPECT_TRUE(wrong.out.empty()) << bad;
-    EXPECT_EQ(std::count(wrong.err.begin(), wrong.err.end(), '\n'), 1) << wrong.err;
-  }
-  EXPECT_EQ(run_program("bench perception --scenes 0").code, 2);
-  EXPECT_EQ(run_program("bench perception --scene-files " + folder_->path("no.yaml")).code, 2);
-  EXPECT_EQ(run_program("bench perception --scenes 1 --parts tee --json /dev/null/out.json", "cd " + kRoot).code, 6);
 }
 
 }  // namespace
