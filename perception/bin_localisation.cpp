@@ -11,18 +11,18 @@
 namespace binpick {
 namespace {
 
-constexpr int kStride = 3;              // px between the pixels that are looked at
+constexpr int kEvery = 9;               // px: one of so many is looked at, every column and every row alike
 constexpr double kCell = 0.05;          // m, about, edge of a cell
 constexpr double kMargin = 0.010;       // m off the edges of a face: farther than the bin may be off
 constexpr double kBinWidth = 0.0005;    // m, of a histogram
 constexpr int kFewestPixels = 12;       // in the mode of a cell
 constexpr double kModeShare = 0.25;     // of a cell's highest mode: a deeper one this high is the face
 constexpr double kSystematic = 0.0003;  // m, of a cell: what averaging does not remove
-constexpr double kCorrelated = 5;       // pixels of a cell that share one noise value (40 px at a stride of 3)
+constexpr double kCorrelated = 5;       // pixels of a cell that share one noise value (40 px, one of 9 looked at)
 constexpr double kLeastScale = 0.001;   // m, of the robust fit
 constexpr int kFewestFloorCells = 4, kRounds = 12;
-constexpr int kFaces = 5;            // floor, walls at -x, +x, -y, +y
-constexpr double kLeastTrust = 0.1;  // of the priors: see the header
+constexpr int kFaces = 5;             // floor, walls at -x, +x, -y, +y
+constexpr double kLeastTrust = 0.03;  // of the priors: see the header
 
 constexpr int kUnknowns = 10;  // twist of the bin in B (translation, rotation), then the bias
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
@@ -102,8 +102,8 @@ std::vector<Sample> samples_of(const Scene& scene, const Pose& X_CB, const std::
                                double reach) {
   std::vector<Sample> samples;
   const Pose X_BC = X_CB.inverse();
-  for (int v = 0; v < scene.depth.height(); v += kStride)
-    for (int u = 0; u < scene.depth.width(); u += kStride) {
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 4 * v % kEvery; u < scene.depth.width(); u += kEvery) {
       const Sample s = sample_at(scene, X_BC, faces, u, v);
       if (s.face >= 0 && std::abs(s.distance) < reach) samples.push_back(s);
     }

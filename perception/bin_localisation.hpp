@@ -14,9 +14,11 @@
 //   apart, and their true distance is known. So with walls in view b0 and height are told apart, to a few tenths of a
 //   millimetre and no better; without them only the priors below decide.
 // - Hence an assumption: a bin that stands where it is believed to in the ways that the walls show (x, y, turn) is
-//   believed in the others as well, down to a tenth of the stated priors. A bin that is wrong in height alone would, to
-//   that extent, be taken for a bias.
+//   believed in the others as well, down to a thirtieth of the stated priors. A bin that is wrong in height alone
+//   would, to that extent, be taken for a bias.
 // - b3 bends the floor, which no pose does.
+// - A ripple of the disparity (stereo matchers pull it towards whole pixels) is not in the model: the floor shows one
+//   phase of it, parts above the floor have another. It stays in the poses: with 0.03 px at 0.6 m up to 0.9 mm in z.
 #pragma once
 
 #include "core/config.hpp"

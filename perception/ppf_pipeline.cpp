@@ -7,6 +7,7 @@
 #include "core/check.hpp"
 #include "perception/part_search.hpp"
 #include "perception/symmetry_covariance.hpp"
+#include "perception/why_nothing.hpp"
 
 namespace binpick {
 namespace {
@@ -205,6 +206,7 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
     if (features) features->push_back(score_features(scene, parts_[c.part].surface, c, parts_[c.part].twists));
   }
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
+  if (result.estimates.empty()) result.message = why_nothing(scene, parts_, settings_.preprocess.headroom);
   result.wall.total = total.lap();
   return result;
 }
