@@ -96,8 +96,14 @@ TEST(PaperPpf, ASecondSearchLosesNothingOfTheFirst) {
   for (std::uint64_t seed = 61; seed <= 63; ++seed) {
     const HeapScene scene = make_scene(bracket, HeapOptions(), Seed{seed}, camera_above(0.6));
     Tally first, both;
-    count(bracket, scene, once->estimate(scene.view, Seed{1}), first);
-    count(bracket, scene, twice->estimate(scene.view, Seed{1}), both);
+    // Of twins that the view cannot tell apart either one may be given, in either search: those are flagged.
+    const auto unflagged = [&](const PoseEstimator& estimator) {
+      EstimateResult result = estimator.estimate(scene.view, Seed{1});
+      std::erase_if(result.estimates, [](const PoseEstimate& e) { return e.ambiguous; });
+      return result;
+    };
+    count(bracket, scene, unflagged(*once), first);
+    count(bracket, scene, unflagged(*twice), both);
     EXPECT_GT(first.right, 0) << "seed " << seed;
     EXPECT_GE(both.right, first.right) << "seed " << seed;
     EXPECT_GE(both.found, first.found) << "seed " << seed;

@@ -45,7 +45,7 @@ TEST(Robustness, FloorAndWallsLeftInTheCloudCostNoPrecision) {
       ++all, right += is_right(ring, e, scene);
   }
   EXPECT_EQ(right, all);
-  EXPECT_GT(2 * all, found_with_bin);  // what lies on an unknown floor is hard to tell from it
+  EXPECT_GT(3 * all, found_with_bin);  // what lies on a floor that nobody knows of is hard to tell from it
 }
 
 TEST(Robustness, AnotherPartIsNotFound) {
