@@ -19,7 +19,7 @@ struct CheckConfig {
   double tolerance = 0.003;         ///< m, depth agreement of an inlier, at least
   double tolerance_sigmas = 2.5;    ///< and at least this many standard deviations of the sensor
   double rough = 2;                 ///< times wider before refinement
-  double normal_tolerance = 0.9;    ///< rad, normal agreement of an inlier
+  double normal_tolerance = 1.05;    ///< rad, normal agreement of an inlier
   double wall_tolerance = 0.004;    ///< m, how far a pose may reach into floor or wall, beside 2 sigma
   int points = 250;                 ///< model points that are tried
 

@@ -19,6 +19,8 @@ std::unique_ptr<PoseEstimator> make_paper_ppf_estimator() {
   PpfSettings settings;
   settings.voting.partners = 0;   // every point around a reference
   settings.voting.full_cell = 1;  // every vote counts the same
+  settings.check.normal_tolerance = 0.9;
+  settings.accept.least_quality = settings.accept.sure_quality;  // no pose of middling quality
   return std::make_unique<PpfEstimator>(settings);
 }
 
