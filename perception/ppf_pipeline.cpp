@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/check.hpp"
+#include "perception/large_planes.hpp"
 #include "perception/part_search.hpp"
 #include "perception/symmetry_covariance.hpp"
 #include "perception/why_nothing.hpp"
@@ -196,8 +197,13 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
   EstimateResult result;
   Stopwatch total, stage;
   double thinnest = parts_.front().thinnest;
-  for (const PreparedPart& p : parts_) thinnest = std::min(thinnest, p.thinnest);
-  const Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest);
+  double largest = 0;
+  for (const PreparedPart& p : parts_) {
+    thinnest = std::min(thinnest, p.thinnest);
+    largest = std::max(largest, p.diameter);
+  }
+  Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest);
+  if (!scene.bin && settings_.preprocess.large_planes) unmark_large_planes(scene, largest);
   result.wall.preprocess = stage.lap();
   std::vector<Candidate> standing =
       settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);

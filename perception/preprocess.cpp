@@ -99,6 +99,7 @@ void PreprocessConfig::visit(ConfigVisitor& v) {
   v.field("thin_parts", thin_parts, "tell parts hardly thicker than the noise from the floor by several pixels");
   v.field("wall_margin", wall_margin, Unit::kLength, "points nearer to a wall are removed");
   v.field("headroom", headroom, Unit::kLength, "height above the rim that is still looked at");
+  v.field("large_planes", large_planes, "without a bin: planes that reach farther than any part are not parts");
   v.section("locate", locate, "the bin's pose and the sensor's bias from floor and walls in view");
   v.field("near", near, Unit::kLength, "pass-through without a bin: least depth");
   v.field("far", far, Unit::kLength, "pass-through without a bin: largest depth");

@@ -19,6 +19,7 @@ struct PreprocessConfig {
   double floor_cut = 3;            ///< standard deviations of the depth above the floor
   double floor_cut_least = 0.002;  ///< m
   bool thin_parts = true;         ///< parts thinner than six standard deviations: a neighbourhood tells floor from part
+  bool large_planes = true;       ///< without a bin, planes larger than any part are taken away
   double wall_margin = 0.005;     ///< m off the walls
   double headroom = 0.15;         ///< m above the walls' rim that is still looked at
   double near = 0.05, far = 3.0;  ///< m, depth range where there is no bin
