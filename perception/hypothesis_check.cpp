@@ -7,6 +7,7 @@
 namespace binpick {
 namespace {
 
+constexpr double kThrough = 0.03;      // of a part's surface on either side of a plane it cannot reach through
 constexpr int kMostVoxels = 400;       // along one edge: bounds the memory when stray points lie far away
 constexpr float kLeastFacing = 0.05f;  // cosine, flatter points are not judged
 constexpr float kLeastSlant = 0.35f;   // cosine: on a slanted surface a small step sideways is a large one in depth
@@ -120,8 +121,33 @@ CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose
   return {sums.tried, sums.inliers, sums.occluded, sums.through, sums.unknown, sums.off};
 }
 
+/// False when a pose reaches through a large plane: some of it stands before the plane, and some is hidden behind where
+/// the plane is seen. (A part wholly behind, as behind a wall, is only covered.)
+static bool clear_of_planes(const Scene& scene, const SurfaceModel& model, const Pose& X_CP,
+                            const CheckConfig& config) {
+  const Eigen::Isometry3f X = X_CP.cast<float>();
+  const float slack = static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(X.translation().z());
+  const std::size_t step = std::max<std::size_t>(1, model.points().size() / 300);
+  std::vector<int> before(scene.planes.size(), 0), behind(scene.planes.size(), 0);
+  int all = 0;
+  for (std::size_t i = 0; i < model.points().size(); i += step, ++all) {
+    const Eigen::Vector3f p = X * model.points()[i];
+    const Eigen::Vector2d pixel = scene.camera.project(p.cast<double>());
+    const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+    const std::size_t seen = scene.plane_of.contains(u, v) ? scene.plane_of(u, v) : 0;
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+      const float height = scene.planes[k].head<3>().dot(p) - scene.planes[k].w();
+      before[k] += height > slack;
+      behind[k] += height < -slack && seen == k + 1;
+    }
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k)
+    if (before[k] > kThrough * all && behind[k] > kThrough * all) return false;
+  return true;
+}
+
 bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config) {
-  if (!scene.bin) return true;
+  if (!scene.bin) return scene.planes.empty() || clear_of_planes(scene, model, X_CP, config);
   const Eigen::Isometry3f X_BP = (scene.X_CB.inverse() * X_CP).cast<float>();
   const float slack =
       static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));

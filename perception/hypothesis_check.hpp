@@ -19,7 +19,7 @@ struct CheckConfig {
   double tolerance = 0.003;         ///< m, depth agreement of an inlier, at least
   double tolerance_sigmas = 2.5;    ///< and at least this many standard deviations of the sensor
   double rough = 2;                 ///< times wider before refinement
-  double normal_tolerance = 1.05;    ///< rad, normal agreement of an inlier
+  double normal_tolerance = 1.05;   ///< rad, normal agreement of an inlier
   double wall_tolerance = 0.004;    ///< m, how far a pose may reach into floor or wall, beside 2 sigma
   int points = 250;                 ///< model points that are tried
 
@@ -63,7 +63,8 @@ double voxel_share(const VoxelSet& voxels, const SurfaceModel& model, const Pose
 CheckCounts check_rays(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config,
                        double widened = 1);
 
-/// True when no point of the pose lies below the floor or behind a wall (always true without a bin).
+/// True when no point of the pose lies below the floor or behind a wall and, without a bin, that none reaches through a
+/// large plane in view.
 bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, const CheckConfig& config);
 
 }  // namespace binpick

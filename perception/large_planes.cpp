@@ -152,6 +152,7 @@ float reach_of(const Surface& surface, const std::vector<std::uint32_t>& piece) 
 void unmark_large_planes(Scene& scene, double largest_part) {
   Surface surface(scene);
   const double fewest = kFewest * static_cast<double>(surface.pixels.size());
+  scene.plane_of = Image<std::uint8_t>(scene.depth.width(), scene.depth.height(), 0);
   Rng rng = Seed{0x706c616e}.rng();
   for (int k = 0; k < kMostPlanes && surface.pixels.size() > 100; ++k) {
     const std::vector<std::uint32_t> on = best_plane(surface, rng);
@@ -163,8 +164,16 @@ void unmark_large_planes(Scene& scene, double largest_part) {
       return reach_of(surface, piece) > kTooLarge * largest_part;
     });
     // All of it: no part has a face in the plane of the floor it lies on, or of the wall it leans against.
-    if (large)
-      for (const std::uint32_t i : on) scene.wanted[i] = 0;
+    if (large) {
+      const Plane plane = fitted(surface, on);
+      const float towards = plane.offset > 0 ? -1.0f : 1.0f;
+      scene.planes.emplace_back(towards * plane.normal.x(), towards * plane.normal.y(), towards * plane.normal.z(),
+                                towards * plane.offset);
+      for (const std::uint32_t i : on) {
+        scene.wanted[i] = 0;
+        scene.plane_of[i] = static_cast<std::uint8_t>(scene.planes.size());
+      }
+    }
     surface.drop_taken();
   }
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "core/bin_spec.hpp"
 #include "core/depth_frame.hpp"
@@ -23,6 +24,10 @@ struct Scene {
   Image<Eigen::Vector3f> normals;  ///< towards the camera; zero where there is none to trust
   StatedNoise noise;
   std::optional<BinSpec> bin;
+  /// Without a bin: (normal towards the camera, normal . point) of the large planes in view, and by pixel which one is
+  /// seen there, from 1 on; empty where there are none.
+  std::vector<Eigen::Vector4f> planes;
+  Image<std::uint8_t> plane_of;
   Pose X_CB = Pose::Identity();
   double floor_offset = 0;   ///< 1/m, what the floor showed the inverse depth to be off by (already removed)
   int threads = 1;           ///< that a stage may use; results are put together by index

@@ -72,7 +72,9 @@ Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext
     seen.view.cloud_noise = frames.front().noise;
   }
   seen.view.bin = s.cell.bin;
-  seen.view.X_CB = seen.X_WC_believed.inverse() * s.cell.X_WB;
+  // As a recorded frame holds it, so that the frame read back is the same input to the last bit.
+  const Pose X_CB = seen.X_WC_believed.inverse() * s.cell.X_WB;
+  seen.view.X_CB = pose_from_xyz_rpy(X_CB.translation(), stored_rpy(X_CB.linear()));
   return seen;
 }
 
