@@ -19,7 +19,7 @@ struct SearchConfig {
   int refined = 150;              // of those, refined coarsely
   int regional = 10;              // of those, at most so many whose centres lie in one region of half a diameter
   int rounds = 2;                 // the second one looks at what the first left unexplained
-  double sure = 0.5;              // score from which a pose counts as one of those
+  double sure = 0.5;              // fit (quality x share explained) that counts; not the score
   int enough = 0;                 // accepted poses after which the search stops; 0: all that can be found
   double least_coarse = 0;        // score along the rays below which a coarsely refined pose is dropped
   int finished = 50;              // of those, refined finely with the silhouette
@@ -32,7 +32,8 @@ struct SearchConfig {
     v.field("refined", refined, "of those, refined coarsely");
     v.field("regional", regional, "of those, at most so many in one region of half a diameter");
     v.field("rounds", rounds, "searches; each further one looks at what is still unexplained");
-    v.field("sure", sure, Unit::kNone, "score from which a pose counts towards `enough`");
+    v.field("sure", sure, Unit::kNone,
+            "inlier quality x explained share of the drawn part from which a pose counts towards enough");
     v.field("enough", enough, "poses that are enough: the search stops early; 0: all that can be found");
     v.field("least_coarse", least_coarse, Unit::kNone, "score that a coarsely refined pose needs, -1 .. 1");
     v.field("finished", finished, "of those, refined finely");
