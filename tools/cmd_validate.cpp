@@ -6,6 +6,7 @@
 #include "core/file_io.hpp"
 #include "tools/commands.hpp"
 #include "tools/validate/sensor_plots.hpp"
+#include "tools/validate/suction_bench.hpp"
 
 namespace binpick {
 namespace {
@@ -18,6 +19,11 @@ struct Options {
   int threads = 2;
 };
 
+void drawn_or_said(bool drawn, const std::string& folder) {
+  if (!drawn)
+    std::cerr << "gnuplot is not installed: " << folder << " has the curves and scripts, no pictures" << std::endl;
+}
+
 std::vector<Verdict> validate_sensors(const Options& options) {
   auto [first, last] = std::pair<std::uint64_t, std::uint64_t>(5000, 5000 + SensorBench::kFullSeeds);
   if (options.quick) last = first + kQuickSeeds;
@@ -29,17 +35,29 @@ std::vector<Verdict> validate_sensors(const Options& options) {
     check(bench);
   if (!options.plots.empty()) {
     SensorBench middle(first, static_cast<int>(last - first), true, options.threads);
-    if (!plot_sensors(middle, options.plots))
-      std::cerr << "gnuplot is not installed: " << options.plots << " has the curves and scripts, no pictures"
-                << std::endl;
+    drawn_or_said(plot_sensors(middle, options.plots), options.plots);
   }
+  return bench.verdicts();
+}
+
+std::vector<Verdict> validate_suction(const Options& options) {
+  auto [first, last] = std::pair<std::uint64_t, std::uint64_t>(5000, 5000 + SuctionBench::kFullDraws);
+  if (options.quick) last = first + kQuickSeeds;
+  if (!options.seeds.empty()) std::tie(first, last) = parse_seeds(options.seeds);
+  if (last - first > 1000) throw SpecError("--seeds: at most 1000");
+  SuctionBench bench(first, static_cast<int>(last - first));
+  for (void (*check)(SuctionBench&) :
+       {check_pull_off, check_slip, check_lift, check_lever_arm, check_curvature, check_ring_edge})
+    check(bench);
+  if (!options.plots.empty()) drawn_or_said(plot_suction(options.plots), options.plots);
   return bench.verdicts();
 }
 
 int run(const Options& options) {
   if (!options.json.empty()) write_file(options.json, "[]\n");  // a place that cannot be written is known at once
   if (!options.plots.empty()) make_folder(options.plots);
-  const std::vector<Verdict> verdicts = validate_sensors(options);
+  const std::vector<Verdict> verdicts =
+      options.subject == "suction" ? validate_suction(options) : validate_sensors(options);
   if (!options.json.empty()) write_file(options.json, json_of(verdicts));
   std::cout << table_of(verdicts) << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
@@ -51,7 +69,9 @@ int run(const Options& options) {
 Action add_validate(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("validate", "physical checks: measured value, expected value, verdict");
-  command->add_option("subject", options->subject, "what to check")->required()->check(CLI::IsMember({"sensors"}));
+  command->add_option("subject", options->subject, "what to check")
+      ->required()
+      ->check(CLI::IsMember({"sensors", "suction"}));
   command->add_flag("--quick", options->quick, "fewer seeds and smaller images, tolerances widened accordingly");
   command->add_option("--seeds", options->seeds, "A:B, seeds A .. B-1; default 5000:5020, quick 5000:5004");
   command->add_option("--threads", options->threads, "results do not depend on it")->check(CLI::Range(1, 256));

@@ -102,6 +102,33 @@ TEST(ValidateSensors, TheQuickFormPassesEveryCheck) {
   EXPECT_THAT(ids, testing::ElementsAre("V-A1", "V-A2", "V-A3", "V-A4", "V-A5", "V-A6", "V-A7", "V-A8"));
 }
 
+TEST(Verdict, AnIntervalIsShownWithItsDraws) {
+  Verdict drawn = verdict(1.5, 0.01, Rule::kWithin);
+  drawn.samples = 7, drawn.low = 1.4, drawn.high = 1.6;
+  EXPECT_THAT(table_of({drawn}), HasSubstr("1400..1600 (7)"));
+  const auto row = nlohmann::json::parse(json_of({drawn}))[0];
+  EXPECT_EQ(row["samples"], 7);
+  EXPECT_EQ(row["low"], 1.4);
+  EXPECT_EQ(row["high"], 1.6);
+  EXPECT_FALSE(nlohmann::json::parse(json_of({verdict(1.5, 0.01, Rule::kWithin)}))[0].contains("samples"));
+}
+
+TEST(ValidateSuction, TheQuickFormPassesEveryCheck) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program("validate suction --quick --seeds 100:104 --json " + folder.path("v.json"));
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  std::set<std::string> ids;
+  for (const auto& row : nlohmann::json::parse(read_file(folder.path("v.json")))) {
+    ids.insert(row.at("id").get<std::string>());
+    EXPECT_TRUE(row.at("pass").get<bool>()) << row;
+    if (!row.contains("samples")) continue;
+    EXPECT_GE(row.at("samples").get<int>(), 4) << row;
+    EXPECT_LE(row.at("low").get<double>(), row.at("value").get<double>()) << row;
+    EXPECT_GE(row.at("high").get<double>(), row.at("value").get<double>()) << row;
+  }
+  EXPECT_THAT(ids, testing::ElementsAre("V-B1", "V-B2", "V-B3", "V-B4", "V-B5"));
+}
+
 TEST(ValidateSensors, ThreadsDoNotChangeAnyValue) {
   const TemporaryFolder folder;
   const std::string one = "validate sensors --quick --seeds 7:9 --threads ";

@@ -34,6 +34,14 @@ std::string shown_tolerance(const Verdict& v) {
   return shown(v.rule == Verdict::Rule::kWithin ? "+-" : "slack ", v.tolerance, v.unit);
 }
 
+std::string shown_interval(const Verdict& v) {
+  if (v.samples == 0) return "-";
+  const double scale = v.unit == "m" ? 1e3 : 1;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4g..%.4g (%d)", scale * v.low, scale * v.high, v.samples);
+  return text;
+}
+
 }  // namespace
 
 bool Verdict::pass() const {
@@ -58,23 +66,23 @@ std::string table_of(const std::vector<Verdict>& verdicts) {
   const int columns = static_cast<int>(width);
   std::string text;
   const auto line = [&](const char* id, const char* what, const std::string& value, const std::string& expected,
-                        const std::string& tolerance, const char* verdict) {
-    std::vector<char> row(width + 128);
-    std::snprintf(row.data(), row.size(), "%-5s  %-*s  %12s  %12s  %13s  %s\n", id, columns, what, value.c_str(),
-                  expected.c_str(), tolerance.c_str(), verdict);
+                        const std::string& tolerance, const std::string& interval, const char* verdict) {
+    std::vector<char> row(width + 160);
+    std::snprintf(row.data(), row.size(), "%-5s  %-*s  %12s  %12s  %13s  %22s  %s\n", id, columns, what, value.c_str(),
+                  expected.c_str(), tolerance.c_str(), interval.c_str(), verdict);
     text += row.data();
   };
-  line("id", "what", "value", "expected", "tolerance", "verdict");
+  line("id", "what", "value", "expected", "tolerance", "95 % interval (draws)", "verdict");
   for (const Verdict& v : verdicts)
     line(v.id.c_str(), v.what.c_str(), shown("", v.value, v.unit), shown_expectation(v), shown_tolerance(v),
-         v.pass() ? "pass" : "FAIL");
+         shown_interval(v), v.pass() ? "pass" : "FAIL");
   const auto passed = std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.pass(); });
   return text + std::to_string(passed) + " of " + std::to_string(verdicts.size()) + " pass\n";
 }
 
 std::string json_of(const std::vector<Verdict>& verdicts) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const Verdict& v : verdicts)
+  for (const Verdict& v : verdicts) {
     rows.push_back({{"id", v.id},
                     {"what", v.what},
                     {"value", v.value},
@@ -83,6 +91,8 @@ std::string json_of(const std::vector<Verdict>& verdicts) {
                     {"unit", v.unit},
                     {"rule", rule_name(v.rule)},
                     {"pass", v.pass()}});
+    if (v.samples > 0) rows.back().update({{"samples", v.samples}, {"low", v.low}, {"high", v.high}});
+  }
   return rows.dump(1) + "\n";
 }
 

@@ -19,6 +19,8 @@ struct Verdict {
   double tolerance = 0;  ///< absolute, in the same unit
   std::string unit;      ///< "m", "px", "m/m", or "1" for plain numbers and shares
   Rule rule = Rule::kWithin;
+  int samples = 0;           ///< independent draws behind the value; 0 where there is nothing to count
+  double low = 0, high = 0;  ///< 95 % interval of the value, when there are samples
 
   bool pass() const;  ///< never for a value that is not a number
 };
@@ -27,7 +29,8 @@ bool all_pass(const std::vector<Verdict>& verdicts);
 
 /// The table, one line a verdict, and a last line that counts them.
 std::string table_of(const std::vector<Verdict>& verdicts);
-/// [{"id","what","value","expected","tolerance","unit","rule","pass"}]; a value that is not a number is null.
+/// [{"id","what","value","expected","tolerance","unit","rule","pass"}], and "samples","low","high" where draws were
+/// counted; a value that is not a number is null.
 std::string json_of(const std::vector<Verdict>& verdicts);
 
 /// Relative standard error of an RMS over `images` independent images of `pixels` pixels each, of Gaussian noise whose
