@@ -14,6 +14,7 @@ struct StatedNoise {
   double linear = 0;          ///< m per m
   double quadratic = 0;       ///< m per m^2; stereo: s / (f B)
   double fattening_px = 0;    ///< how far foreground grows over its true outline, in pixels
+  double focal_baseline = 0;  ///< m px, f B of two rectified imagers: disparity = this / z; 0: depth is made otherwise
 
   double sigma(double z) const { return constant + linear * z + quadratic * z * z; }
 };

@@ -53,6 +53,8 @@ void visit_noise(ConfigVisitor& v, StatedNoise& noise) {
         in.field("quadratic", noise.quadratic, Unit::kNone, "m per m^2; stereo: s / (f B)");
         in.field("fattening_px", noise.fattening_px, Unit::kNone,
                  "how far foreground grows over its outline, in pixels");
+        in.field("focal_baseline", noise.focal_baseline, Unit::kNone,
+                 "m px, f B of a stereo camera: lets a ripple of its disparity be found; 0: no stereo camera");
       },
       "the noise that the camera's data sheet states");
 }
@@ -65,6 +67,8 @@ void validate_noise(const StatedNoise& noise) {
     if (!(noise.sigma(z) >= 0)) throw SpecError("noise: constant + linear z + quadratic z^2 must not be negative");
   if (!(noise.fattening_px >= 0 && noise.fattening_px < 50))
     throw SpecError("noise.fattening_px: must lie between 0 and 50 pixels");
+  if (!(noise.focal_baseline >= 0 && noise.focal_baseline < 1e5))
+    throw SpecError("noise.focal_baseline: must lie between 0 and 1e5 m px");
 }
 
 void FrameRequest::visit(ConfigVisitor& v) {

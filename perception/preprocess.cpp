@@ -21,6 +21,30 @@ void clear_bad_depth(Scene& scene) {
     if (!(z > 0) || !std::isfinite(z)) z = kUnknown;
 }
 
+/// Error of the inverse depth by the fraction of the disparity, since a sine a pixel is dear.
+std::vector<float> ripple_table(const DisparityRipple& ripple) {
+  constexpr int kSteps = 512;  // far finer than the noise of a pixel
+  std::vector<float> table(kSteps, 0.0f);
+  if (ripple.none()) return table;
+  for (int k = 0; k < kSteps; ++k)
+    table[static_cast<std::size_t>(k)] = static_cast<float>(ripple.at(ripple.fB / (1 + (k + 0.5) / kSteps)));
+  return table;
+}
+
+void remove_bias(Scene& scene, const LocatedBin& located) {
+  const std::vector<float> table = ripple_table(located.ripple);
+  const auto steps = static_cast<float>(table.size()), fB = static_cast<float>(located.ripple.fB);
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u) {
+      float& z = scene.depth(u, v);
+      if (!(z > 0)) continue;
+      const float turns = fB / z, fraction = turns - std::floor(turns);
+      const float wave = table[std::min(table.size() - 1, static_cast<std::size_t>(fraction * steps))];
+      const float inverse = 1 / z - static_cast<float>(located.bias.at(scene.camera, u, v)) - wave;
+      z = inverse > 0 ? 1 / inverse : kUnknown;
+    }
+}
+
 /// Where the bin stands and what the sensor is off by, from floor and walls; false when too little of them is seen.
 bool locate(Scene& scene, const PreprocessConfig& config) {
   if (!config.locate.enabled) return false;
@@ -29,12 +53,7 @@ bool locate(Scene& scene, const PreprocessConfig& config) {
   scene.X_CB = located.X_CB;
   if (!config.calibrate_floor) return true;
   scene.floor_offset = located.bias.constant;
-  for (int v = 0; v < scene.depth.height(); ++v)
-    for (int u = 0; u < scene.depth.width(); ++u) {
-      float& z = scene.depth(u, v);
-      const float inverse = 1 / z - static_cast<float>(located.bias.at(scene.camera, u, v));
-      z = inverse > 0 ? 1 / inverse : kUnknown;
-    }
+  remove_bias(scene, located);
   return true;
 }
 

@@ -120,7 +120,8 @@ class ActiveStereoSensor : public SensorModel {
   double z_max() const override { return p_.grid.z_max; }
   std::vector<std::string> presets() const override { return kPresets; }
   StatedNoise stated_noise(const PinholeCamera& camera) const override {
-    return {0, 0, p_.stated_noise / (camera.fx * p_.baseline), p_.stated_fattening};
+    const double fB = camera.fx * p_.baseline;
+    return {0, 0, p_.stated_noise / fB, p_.stated_fattening, fB};
   }
   Image<float> capture(const SensorView& view, Seed camera_seed, Seed frame_seed) const override;
 

@@ -130,7 +130,8 @@ class DisparitySensor : public SensorModel {
   double z_max() const override { return p_.grid.z_max; }
   std::vector<std::string> presets() const override { return kPresets; }
   StatedNoise stated_noise(const PinholeCamera& camera) const override {
-    return {0, 0, p_.subpixel_noise / (camera.fx * p_.baseline), static_cast<double>(p_.fattening)};
+    const double fB = camera.fx * p_.baseline;
+    return {0, 0, p_.subpixel_noise / fB, static_cast<double>(p_.fattening), fB};
   }
   Image<float> capture(const SensorView& seen, Seed camera_seed, Seed frame_seed) const override;
 

@@ -105,6 +105,29 @@ TEST(BinLocalisation, ABentBiasIsTakenOffOverTheWholeFloor) {
   }
 }
 
+TEST(BinLocalisation, ARippleIsTakenOffWhatLiesAboveTheFloor) {
+  HeapOptions options;
+  options.noise = false;
+  const HeapScene made = photograph(ring_part(), {}, options, Seed{7}, camera_above(0.6));
+  Scene scene = believed(made, 0, Seed{7});
+  scene.noise.focal_baseline = scene.camera.fx * 0.05;
+  const double fB = scene.noise.focal_baseline, amplitude = 0.03;
+  for (float& z : scene.depth)
+    z = static_cast<float>(fB / (fB / z + amplitude * std::sin(2 * std::numbers::pi * fB / z)));
+  const LocatedBin found = locate_bin(scene, {});
+  ASSERT_TRUE(found.found);
+  // Of the seen disparity instead of the true one the wave is a little skewed: 2 pi 0.03 = 19 %.
+  EXPECT_NEAR(std::hypot(found.ripple.sine, found.ripple.cosine), amplitude, 0.2 * amplitude);
+  for (const double z : {0.598, 0.590, 0.585, 0.55}) {  // heights at which parts lie
+    const double seen = fB / (fB / z + amplitude * std::sin(2 * std::numbers::pi * fB / z));
+    const double corrected = 1 / (1 / seen - found.ripple.at(seen) - found.bias.constant);
+    EXPECT_NEAR(corrected, z, 0.0002) << z;  // 0.5 mm when left in
+  }
+  Scene without = scene;
+  without.noise.focal_baseline = 0;
+  EXPECT_TRUE(locate_bin(without, {}).ripple.none());
+}
+
 TEST(BinLocalisation, SaysWhenThereIsNothingToGoBy) {
   const HeapScene made = photograph(ring_part(), {}, HeapOptions(), Seed{6}, camera_above(0.6));
   Scene scene = believed(made, 0.002, Seed{6});

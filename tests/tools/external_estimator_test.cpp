@@ -84,6 +84,7 @@ TEST_F(External, TheFolderHoldsTheWholeRequest) {
   EXPECT_EQ(got.camera.cy, sent.camera.cy);
   EXPECT_EQ(got.noise.quadratic, sent.noise.quadratic);
   EXPECT_EQ(got.noise.fattening_px, sent.noise.fattening_px);
+  EXPECT_EQ(got.noise.focal_baseline, sent.noise.focal_baseline);
   for (std::size_t i = 0; i < sent.depth.size(); ++i)
     EXPECT_TRUE(got.depth[i] == sent.depth[i] || (std::isnan(got.depth[i]) && std::isnan(sent.depth[i])));
   EXPECT_EQ(copy.request.seed.key, 18446744073709551615u);
