@@ -202,7 +202,7 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
     thinnest = std::min(thinnest, p.thinnest);
     largest = std::max(largest, p.diameter);
   }
-  Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest);
+  Scene scene = make_scene(view, settings_.preprocess, settings_.normals, thinnest, largest);
   if (!scene.bin && settings_.preprocess.large_planes) unmark_large_planes(scene, largest);
   result.wall.preprocess = stage.lap();
   std::vector<Candidate> standing =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "perception/bin_finder.hpp"
 #include "perception/floor_mask.hpp"
 #include "perception/floor_offset.hpp"
 #include "perception/noise_correlation.hpp"
@@ -14,6 +15,7 @@ namespace binpick {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNoBias = 1e-7;      // m
 constexpr double kAroundBin = 0.015;  // m about the believed bin that stay in the picture: it may be off by so much
 
 void clear_bad_depth(Scene& scene) {
@@ -98,6 +100,21 @@ void mark_thin_parts(Scene& scene, const PreprocessConfig& config, double thinne
   mark_low_pixels(scene, {0.5 * thinnest, 1.5 * thinnest + 4 * sigma, config.wall_margin});
 }
 
+/// The bin, where none is known, as the whole view shows it.
+std::optional<FoundBin> look_for_bin(Scene& scene, const PreprocessConfig& config, double largest) {
+  if (scene.bin || !config.find_bin || !(largest > 0)) return std::nullopt;
+  std::optional<FoundBin> found = find_bin(scene, largest);
+  if (found) scene.bin = found->bin, scene.X_CB = found->X_CB;
+  return found;
+}
+
+/// Its size was measured with the same depth: that says nothing of the sensor's constant bias, nor of one that tilts.
+void locate_found(Scene& scene, const FoundBin& found, PreprocessConfig config) {
+  if (found.walls() < 2 || found.drafted) return;
+  config.locate.bias_sigma = config.locate.tilt_sigma = kNoBias;
+  locate(scene, config);
+}
+
 void take_frame(const DepthFrame& frame, const PreprocessConfig& config, Scene& scene) {
   const bool crop = scene.bin && !frame.depth.empty();
   DepthFrame part =
@@ -118,7 +135,8 @@ void PreprocessConfig::visit(ConfigVisitor& v) {
   v.field("thin_parts", thin_parts, "tell parts hardly thicker than the noise from the floor by several pixels");
   v.field("wall_margin", wall_margin, Unit::kLength, "points nearer to a wall are removed");
   v.field("headroom", headroom, Unit::kLength, "height above the rim that is still looked at");
-  v.field("large_planes", large_planes, "without a bin: planes that reach farther than any part are not parts");
+  v.field("find_bin", find_bin, "without a bin: floor and walls of a bin, or a table, are found in the view itself");
+  v.field("large_planes", large_planes, "where none is found: planes that reach farther than any part are not parts");
   v.section("locate", locate, "the bin's pose and the sensor's bias from floor and walls in view");
   v.field("near", near, Unit::kLength, "pass-through without a bin: least depth");
   v.field("far", far, Unit::kLength, "pass-through without a bin: largest depth");
@@ -138,27 +156,33 @@ void PreprocessConfig::validate() const {
   if (!(near >= 0 && far > near)) throw SpecError("preprocess.near, far: 0 <= near < far is needed");
 }
 
-Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest) {
+Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest,
+                 double largest) {
   Scene scene;
   scene.bin = view.bin;
   scene.X_CB = view.X_CB;
   scene.noise = view.noise();
   scene.threads = view.threads;
-  if (const auto* frame = std::get_if<DepthFrame>(&view.seen)) {
+  const auto* frame = std::get_if<DepthFrame>(&view.seen);
+  if (frame) {
     take_frame(*frame, config, scene);
   } else {
     organise_cloud(std::get<PointCloud>(view.seen), normals, scene);
   }
+  const std::optional<FoundBin> found = look_for_bin(scene, config, largest);
+  if (found && frame) take_frame(*frame, config, scene);
   scene.wanted = Image<std::uint8_t>(scene.depth.width(), scene.depth.height(), 0);
   clear_bad_depth(scene);
-  if (scene.bin) {
-    if (!locate(scene, config) && config.calibrate_floor)
-      remove_offset(scene, floor_offset(scene, config.largest_offset));
-    scene.floor_cut = floor_height(scene, config, thinnest);
+  if (found) {
+    locate_found(scene, *found, config);
+  } else if (scene.bin && !locate(scene, config) && config.calibrate_floor) {
+    remove_offset(scene, floor_offset(scene, config.largest_offset));
   }
+  if (scene.bin) scene.floor_cut = floor_height(scene, config, thinnest);
   mark_wanted(scene, config);
   mark_thin_parts(scene, config, thinnest);
-  if (std::holds_alternative<DepthFrame>(view.seen)) {
+  if (found && found->drafted) unmark_faces(scene, *found, config.wall_margin);
+  if (frame) {
     estimate_normals(scene, normals);
   } else {
     drop_disagreeing_normals(scene, normals);

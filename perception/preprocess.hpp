@@ -19,7 +19,8 @@ struct PreprocessConfig {
   double floor_cut = 3;            ///< standard deviations of the depth above the floor
   double floor_cut_least = 0.002;  ///< m
   bool thin_parts = true;         ///< parts thinner than six standard deviations: a neighbourhood tells floor from part
-  bool large_planes = true;       ///< without a bin, planes larger than any part are taken away
+  bool find_bin = true;           ///< without a bin, the view itself shows one, or a table
+  bool large_planes = true;       ///< where it does not, planes larger than any part are taken away
   double wall_margin = 0.005;     ///< m off the walls
   double headroom = 0.15;         ///< m above the walls' rim that is still looked at
   double near = 0.05, far = 3.0;  ///< m, depth range where there is no bin
@@ -31,8 +32,10 @@ struct PreprocessConfig {
 };
 
 /// The scene with its wanted pixels and normals. `thinnest` (m): smallest extent of the wanted parts, so that the floor
-/// is never cut higher than a part lying flat.
-Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest);
+/// is never cut higher than a part lying flat. `largest` (m): diameter of the largest of them; floor and walls of a bin
+/// that has to be found reach farther, and with 0 none is looked for.
+Scene make_scene(const SceneView& view, const PreprocessConfig& config, const NormalsConfig& normals, double thinnest,
+                 double largest = 0);
 
 /// One point a voxel and side: mean point and normal of the wanted pixels; what faces two ways in one voxel stays two
 /// points. Only pixels with a normal count.
