@@ -235,6 +235,7 @@ void CupHold::attach(std::size_t i, BodyId part) {
   CupState& state = impl_->states[i];
   BP_CHECK(!state.part, "cup " << i << " already holds body " << *state.part);
   World& world = impl_->world;
+  world.wake(part);
   const Pose X_WU0 = world.pose(impl_->tool) * cup.spec.X_GU;
   const double travel = std::clamp((X_WU0.inverse() * X_WU(i)).translation().z(), -cup.spec.stroke, 0.0);
   cup.X_PU = world.pose(part).inverse() * X_WU0 * Eigen::Translation3d(0, 0, travel);

@@ -22,6 +22,9 @@ void PhysicsConfig::visit(ConfigVisitor& v) {
   v.field("contact_threshold", contact_threshold, Unit::kLength,
           "distance at which contacts are made ahead of touching");
   v.field("rolling_friction", rolling_friction, Unit::kLength, "lever arm of rolling and spinning friction of parts");
+  v.field("freeze_far", freeze_far, "parts that nothing has moved are frozen while the arm works");
+  v.field("wake_weights", wake_weights, Unit::kNone, "a frozen part wakes at so many weights of contact force above that at rest");
+  v.field("wake_motion", wake_motion, Unit::kLength, "a frozen part wakes when one that touches it has moved more");
 }
 
 void PhysicsConfig::validate() const {
@@ -34,6 +37,8 @@ void PhysicsConfig::validate() const {
           "physics.margin: must lie between 0.01 and 2 mm (a zero margin never rests)");
   require(contact_threshold >= margin && contact_threshold <= 0.02,
           "physics.contact_threshold: must lie between the margin and 20 mm");
+  require(wake_weights > 0 && wake_weights <= 100, "physics.wake_weights: must lie between 0 and 100");
+  require(wake_motion > 0 && wake_motion <= 2e-3, "physics.wake_motion: must lie between 0 and 2 mm");
   require(rolling_friction >= 0 && rolling_friction <= 0.01, "physics.rolling_friction: must lie between 0 and 10 mm");
 }
 

@@ -118,6 +118,7 @@ void World::Impl::advance(double dt) {
   land_moved_bodies();
   time += dt;
   last_step = dt;
+  if (freezing) update_frozen();
 }
 
 World::World(const PhysicsConfig& config) : impl_(std::make_unique<Impl>(config)) {}

@@ -27,6 +27,9 @@ struct PhysicsConfig {
   double margin = 0.2e-3;            ///< m, collision margin, planes inset by it
   double contact_threshold = 2e-3;   ///< m
   double rolling_friction = 0.1e-3;  ///< m, lever arm on parts
+  bool freeze_far = true;            ///< sleeping parts are frozen while the arm works (freeze_sleeping())
+  double wake_weights = 2;           ///< a frozen part wakes at a contact force this many weights above that at rest
+  double wake_motion = 0.1e-3;       ///< m (and m of R x rotation): and when a part it touched has moved more
   void visit(ConfigVisitor& v);
   void validate() const;
 };
@@ -61,6 +64,19 @@ class World {
   void set_damping(double linear, double angular);
   /// Velocity zero and asleep: frozen until something touches or wakes it.
   void put_to_sleep(BodyId body);
+
+  /// From now on a free body that sleeps is frozen: the solver sees it as fixed and its island stays asleep, so that a
+  /// pick pays for the parts it moves, not for the heap. What is frozen wakes, and moves as ever, when
+  ///   a lip comes within contact_threshold: with what it touches and all parts within two bounding radii of it;
+  ///   a moved body does, or a part presses with ten weights: with all that touches it, to the last part;
+  ///   an awake part presses on it by more than `wake_weights` weights above the force at rest;
+  ///   a part that touched it has moved more than `wake_motion`, or one that has comes within contact_threshold (so
+  ///   loads and lost supports pass from part to part). No part is ever a wall for longer than one step.
+  /// Nothing happens unless `freeze_far`.
+  void freeze_sleeping();
+  /// What is frozen just sleeps again.
+  void end_freezing();
+  int frozen_count() const;
 
   double step();           ///< one step; returns its length in s
   double step(double dt);  ///< one step of a stated length (motion in lockstep with the arm)

@@ -20,6 +20,16 @@ struct World::Impl {
     std::unique_ptr<btCompoundShape> compound;
     double radius = 0;  ///< m, of the sphere about M that holds everything
   };
+  /// What a frozen body touched when it was frozen.
+  struct Support {
+    BodyId other;
+    double force;      ///< N
+    btTransform X_WM;  ///< of the other one, then
+  };
+  /// Frozen bodies that have to wake, by what came to them.
+  struct Touched {
+    std::vector<BodyId> loaded, by_lip, by_tool;  ///< a heavy load counts as a tool
+  };
   struct Body {
     BodyKind kind = BodyKind::kFixed;
     std::shared_ptr<Geometry> geometry;
@@ -28,6 +38,11 @@ struct World::Impl {
     Pose X_WO_target = Pose::Identity();  ///< moved bodies: where the next step ends
     bool moving = false;                  ///< moved bodies: a target is set or the last step moved it
     bool present = true;
+    bool frozen = false;
+    double mass = 0;  ///< kg, and the moments of inertia: what a frozen body gets back
+    btVector3 inertia_M{0, 0, 0};
+    btTransform X_rest = btTransform::getIdentity();  ///< X_WM when it was last frozen
+    std::vector<Support> supports;
   };
   /// Pairs of bodies that ignore each other, by id.
   struct PairFilter : btOverlapFilterCallback {
@@ -49,9 +64,21 @@ struct World::Impl {
   void aim_moved_bodies();
   void land_moved_bodies();
 
+  void freeze(const std::vector<BodyId>& ids);
+  void thaw(Body& body);
+  void rouse(Body& body);
+  void thaw_near(BodyId id);
+  void thaw_group(BodyId id);
+  void note_support(BodyId id, BodyId other, double force);
+  bool support_moved(const Body& frozen) const;
+  void find_touched(Touched& touched) const;
+  void update_frozen();
+  double motion_of(const Body& body, const btTransform& X_since) const;
+
   PhysicsConfig config;
   double time = 0;
   double last_step = 0;
+  bool freezing = false;
   std::unique_ptr<btDefaultCollisionConfiguration> collision_configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   std::unique_ptr<btDbvtBroadphase> broadphase;

@@ -44,6 +44,7 @@ void World::set_collides(BodyId a, BodyId b, bool collides) {
 void World::set_present(BodyId body, bool present) {
   Impl::Body& b = impl_->at(body);
   if (b.present == present) return;
+  impl_->thaw(b);
   b.present = present;
   if (present)
     impl_->join_world(b);
@@ -54,6 +55,7 @@ void World::set_present(BodyId body, bool present) {
 void World::teleport(BodyId body, const Pose& X_WO) {
   Impl::Body& b = impl_->at(body);
   const btTransform X_WM = to_bullet(Pose(X_WO * b.X_OM));
+  impl_->thaw(b);
   b.X_WO_target = X_WO;
   b.moving = false;
   b.rigid->setWorldTransform(X_WM);
@@ -102,7 +104,10 @@ Eigen::Vector3d World::angular_velocity(BodyId body) const {
   return from_bullet(impl_->at(body).rigid->getAngularVelocity());
 }
 
-void World::wake(BodyId body) { impl_->at(body).rigid->activate(true); }
+void World::wake(BodyId body) {
+  impl_->thaw(impl_->at(body));
+  impl_->at(body).rigid->activate(true);
+}
 bool World::awake(BodyId body) const { return impl_->at(body).rigid->isActive(); }
 
 double World::deepest_contact() const {

@@ -83,8 +83,13 @@ Action add_bench(CLI::App& app) {
       ->check(CLI::Range(1, 1000000));
   sensors->add_option("--json", options->json, "file for the figures");
   const Action perception = add_bench_perception(*command), score = add_bench_score(*command);
+  const Action physics = add_bench_physics(*command);
+  const CLI::App* physics_parsed = command->get_subcommand("physics");
   const CLI::App* scores = command->get_subcommand("score");
-  return [=] { return sensors->parsed() ? run_sensors(*options) : scores->parsed() ? score() : perception(); };
+  return [=] {
+    if (physics_parsed->parsed()) return physics();
+    return sensors->parsed() ? run_sensors(*options) : scores->parsed() ? score() : perception();
+  };
 }
 
 }  // namespace binpick

@@ -53,6 +53,7 @@ class Execution {
   ExecutionResult run() {
     const Vector6d& q_start = plan_.approach.q.front();
     if ((q_start - cell_.joints()).cwiseAbs().maxCoeff() > 1e-6) cell_.jump_to(q_start);
+    world_.freeze_sleeping();
     if (approach() && seal() && lift()) {
       place();
       if (!finished_) judge_place();
@@ -210,6 +211,7 @@ class Execution {
     settle(world_, rest, &waited);
     result_.motion_time = arm_.motion_time() + waited;
     for (const BodyId body : cell_.heap().bodies) world_.put_to_sleep(body);
+    world_.end_freezing();
   }
 
   void count_neighbours() {
