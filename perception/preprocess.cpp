@@ -7,6 +7,7 @@
 #include "perception/bin_finder.hpp"
 #include "perception/floor_mask.hpp"
 #include "perception/floor_offset.hpp"
+#include "perception/large_planes.hpp"
 #include "perception/noise_correlation.hpp"
 #include "perception/organise_cloud.hpp"
 #include "perception/scene_crop.hpp"
@@ -187,6 +188,8 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   } else {
     drop_disagreeing_normals(scene, normals);
   }
+  // What stands on a table beside the parts, a wall behind it say.
+  if (found && found->walls() == 0 && config.large_planes) unmark_large_planes(scene, largest);
   scene.correlated_px = pixels_per_noise_value(scene);
   return scene;
 }
