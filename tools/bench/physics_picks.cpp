@@ -25,7 +25,6 @@ PickCost cost_of(CellWorld& cell_world, const PickPlan& plan, const ExecutionCon
   cost.neighbours_moved = result.neighbours_moved;
   cost.peak_force = result.peak_force;
   cost.swing = result.swing;
-  cost.world_hash = cell_world.world().state_hash();
   return cost;
 }
 

@@ -27,7 +27,6 @@ struct PickCost {
   int left_in_bin = 0;   ///< parts before the pick
   int neighbours_moved = 0;
   double peak_force = 0, swing = 0;
-  std::uint64_t world_hash = 0;  ///< after it
 };
 
 std::vector<PickCost> bench_picks(const PicksBenchConfig& config);

@@ -1,0 +1,33 @@
+#include "tools/bench/physics_settle.hpp"
+
+#include "core/part.hpp"
+#include "sim/bin.hpp"
+#include "sim/drop.hpp"
+#include "tools/bench/cpu_clock.hpp"
+#include "trials/scenario.hpp"
+
+namespace binpick {
+
+SettleCost bench_settle(const std::string& scene, int parts, std::uint64_t seed) {
+  const Scenario s = read_scenario(scene, {"ideal"});
+  const Part part = load_part(s.parts.front().spec);
+  const CollisionShape shape = collision_shape(part);
+  World world(s.physics);
+  add_bin(world, s.cell.bin, s.cell.X_WB);
+  const std::vector<DropItem> items(static_cast<std::size_t>(parts), {&part, &shape, 0});
+  const CpuClock clock;
+  const DropResult heap = drop_parts(world, items, s.cell.bin, s.cell.X_WB, s.drop, s.settle, Seed{seed}.child("drop"));
+  SettleCost cost;
+  cost.cpu = clock.seconds();
+  cost.scene = s.name;
+  cost.parts = parts;
+  cost.iterations = s.physics.iterations;
+  cost.pieces = shape.pieces_P.size();
+  cost.simulated = world.time();
+  cost.settled = heap.settled;
+  cost.escaped = heap.escaped.size();
+  cost.penetration = heap.worst_penetration;
+  return cost;
+}
+
+}  // namespace binpick
