@@ -43,6 +43,14 @@ PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   return e;
 }
 
+/// Of every pixel, how many of the poses explain it.
+std::vector<std::uint8_t> times_explained(const Scene& scene, const std::vector<Candidate>& poses) {
+  std::vector<std::uint8_t> times(scene.depth.size(), 0);
+  for (const Candidate& c : poses)
+    for (const std::uint32_t i : c.check.explained) ++times[i];
+  return times;
+}
+
 /// The scene without the pixels that sure poses explain.
 Scene unexplained(const Scene& scene, const std::vector<Candidate>& standing, double sure_quality) {
   Scene rest = scene;
@@ -170,11 +178,29 @@ std::vector<Candidate> PpfEstimator::first_poses(const Scene& scene, StageTimes&
   return standing;
 }
 
+/// Without pieces of something larger: a pose falls when on one side the surface goes on and nobody explains it. Who
+/// leaned on it is asked again.
+std::vector<Candidate> PpfEstimator::whole_ones(const Scene& scene, std::vector<Candidate> standing) const {
+  for (std::size_t before = standing.size() + 1; standing.size() < before;) {
+    before = standing.size();
+    std::vector<std::uint8_t> taken = times_explained(scene, standing);
+    for (Candidate& c : standing) {
+      for (const std::uint32_t i : c.check.explained) --taken[i];
+      c.evidence = gather_evidence(scene, parts_[c.part].surface, c.fit.X_CP, taken, settings_.check);
+      for (const std::uint32_t i : c.check.explained) ++taken[i];
+    }
+    std::erase_if(standing,
+                  [&](const Candidate& c) { return c.evidence.leak_side > settings_.accept.largest_side_leak; });
+  }
+  return standing;
+}
+
 /// Best first: what the view cannot tell from a twin comes last.
 std::vector<Candidate> PpfEstimator::scored(const Scene& scene, std::vector<Candidate> standing) const {
+  standing = whole_ones(scene, std::move(standing));
   for (Candidate& c : standing) {
     const PreparedPart& part = parts_[c.part];
-    c.score = calibrated_score(score_features(scene, part.surface, c, part.twists), c.ambiguous);
+    c.score = calibrated_score(score_features(part.surface, c, part.twists), c.ambiguous);
   }
   std::erase_if(standing, [&](const Candidate& c) {  // one of two twins is as good as the pair of them
     return (c.ambiguous ? 2 : 1) * c.score < settings_.accept.least_score;
@@ -209,7 +235,7 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
       settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);
   for (const Candidate& c : scored(scene, std::move(standing))) {
     result.estimates.push_back(to_estimate(c, parts_[c.part]));
-    if (features) features->push_back(score_features(scene, parts_[c.part].surface, c, parts_[c.part].twists));
+    if (features) features->push_back(score_features(parts_[c.part].surface, c, parts_[c.part].twists));
   }
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
   if (result.estimates.empty()) result.message = why_nothing(scene, parts_, settings_.preprocess.headroom);

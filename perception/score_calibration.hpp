@@ -10,17 +10,16 @@
 #include <vector>
 
 #include "core/symmetry.hpp"
-#include "perception/scene.hpp"
 #include "perception/view_check.hpp"
 
 namespace binpick {
 
-constexpr std::size_t kScoreFeatures = 11;
+constexpr std::size_t kScoreFeatures = 16;
 using ScoreFeatures = std::array<double, kScoreFeatures>;
 const std::array<std::string, kScoreFeatures>& score_feature_names();
 
 /// `symmetry_twists`: directions of P in which a symmetric part has no pose to be known (translation, rotation).
-ScoreFeatures score_features(const Scene& scene, const SurfaceModel& model, const Candidate& candidate,
+ScoreFeatures score_features(const SurfaceModel& model, const Candidate& candidate,
                              const std::vector<Vector6d>& symmetry_twists);
 
 /// 0 .. 1.

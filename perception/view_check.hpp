@@ -11,6 +11,7 @@
 #include "perception/hypothesis_check.hpp"
 #include "perception/icp.hpp"
 #include "perception/part_view.hpp"
+#include "perception/pose_evidence.hpp"
 
 namespace binpick {
 
@@ -23,7 +24,8 @@ struct AcceptConfig {
   double least_own = 0.6;         ///< of a pose's inliers that no better pose claims
   double largest_overlap = 0.1;   ///< of a pose's surface that may lie inside a better pose
 
-  double least_score = 0.5;  ///< probability that the pose, or its twin, is right: below, it is not returned
+  double largest_side_leak = 0.7;  ///< of one side of the outline, at which the surface goes on unexplained
+  double least_score = 0.5;        ///< probability that the pose, or its twin, is right: below, it is not returned
 
   void visit(ConfigVisitor& v);
   void validate() const;
@@ -58,6 +60,7 @@ struct Candidate {
   ViewCheck check;
   double own = 1;          ///< share of its inliers that no better pose claims
   double overlap = 0;      ///< share of its surface that lies inside a better pose
+  PoseEvidence evidence;   ///< once all that stand are known
   double score = 0;        ///< calibrated (score_calibration)
   bool settled = false;    ///< its rivals have been tried (rival_poses)
   bool ambiguous = false;  ///< and one of them explains the view as well

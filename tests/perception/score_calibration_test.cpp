@@ -13,7 +13,7 @@ namespace {
 using namespace testing_scene;
 
 /// A pose that everything speaks for.
-ScoreFeatures good() { return {1, 3.5, 0.95, 0.02, 1, 3.3, 1, 0.02, 0.02, 0, -2.5}; }
+ScoreFeatures good() { return {1, 3.5, 0.02, 1, 3.3, 0.02, 0.02, 0, -2.5, 0.02, 0.7, 0.1, 0, -0.2, 0, 0.2}; }
 
 TEST(Score, LiesBetweenZeroAndOneAndIsHalvedWhereTwoPosesLookAlike) {
   EXPECT_EQ(score_feature_names().size(), kScoreFeatures);
@@ -30,10 +30,10 @@ TEST(Score, FallsWithContradictionsLeaksAndOverlap) {
   worse[1] = 0.7;  // half of what can be judged contradicts
   EXPECT_LT(calibrated_score(worse, false), clear);
   worse = good();
-  worse[3] = 0.6;  // the surface goes on at six tenths of the outline
+  worse[2] = 0.6;  // the surface goes on at six tenths of the outline
   EXPECT_LT(calibrated_score(worse, false), clear);
   worse = good();
-  worse[9] = 0.3;  // three tenths of it inside another pose
+  worse[7] = 0.3;  // three tenths of it inside another pose
   EXPECT_LT(calibrated_score(worse, false), clear);
 }
 
