@@ -5,7 +5,7 @@
 // make a bin; sides without a wall are open. A floor alone is a table. Frame C, metres.
 //
 // What cannot be known: the sensor's constant disparity bias (bin_localisation reads it off the known distance of
-// opposite walls), and a floor that parts hide everywhere; it is then taken to lie a part's diameter below them.
+// opposite walls). A floor that parts hide nearly everywhere is not found.
 #pragma once
 
 #include <optional>
