@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "core/cup_models.hpp"
 #include "core/error.hpp"
 
 namespace binpick {
@@ -17,6 +18,13 @@ HoldLimits CupSpec::limits() const {
 }
 
 void CupSpec::visit(ConfigVisitor& v) {
+  if (v.reading() && v.has("model")) {
+    std::string model;
+    v.choice("model", model, cup_model_names(), "cup to start from");
+    const Pose kept = X_GU;
+    *this = cup_model(model).spec;
+    X_GU = kept;
+  }
   v.field("pose", X_GU, "lip centre in the gripper tip frame, plunger fully out; +z leaves the tool");
   v.field("radius", radius, Unit::kLength, "radius of the sealing lip");
   v.field("effective_area_ratio", effective_area_ratio, Unit::kNone, "effective area / lip area; bellows 0.7-0.9");
@@ -30,6 +38,7 @@ void CupSpec::visit(ConfigVisitor& v) {
   v.field("lip_stiffness", lip_stiffness, Unit::kStiffness,
           "of the rim along its axis; a sealed lip bends with k r^2 / 2");
   v.field("max_tilt", max_tilt, Unit::kAngle, "largest angle between lip axis and surface normal, along the whole rim");
+  v.field("leak_gap", leak_gap, Unit::kLength, "mean gap beyond the lip's compliance that leaves no vacuum; 0: any");
 }
 
 void CupSpec::validate() const {
@@ -47,6 +56,7 @@ void CupSpec::validate() const {
   need(preload >= 0 && preload <= 1000, "preload: must lie between 0 and 1000 N");
   need(lip_compliance >= 0 && lip_compliance <= radius, "lip_compliance: must lie between 0 and the lip's radius");
   need(lip_stiffness > 0 && lip_stiffness <= 1e6, "lip_stiffness: must lie between 0 and 1e6 N/m");
+  need(leak_gap >= 0 && leak_gap <= 0.001, "leak_gap: must lie between 0 and 1 mm");
   need(max_tilt > 0 && max_tilt < 1.2, "max_tilt: must lie between 0 and 1.2 rad");
 }
 

@@ -20,9 +20,12 @@ struct CupSpec {
   double lip_compliance = 0.0005;     ///< m, height variation along the rim that the lip closes
   double lip_stiffness = 3000;  ///< N/m of the rim along its axis, 1-3 N/mm (physical_models B3): bending k r^2 / 2
   double max_tilt = 0.26;       ///< rad, between the lip's axis and the surface normal
+  /// m, mean gap along the rim, beyond what the lip closes, that leaves no vacuum: p = p_inf (1 - gap / this)
+  /// (physical_models B3). 0: any such gap opens the cup.
+  double leak_gap = 0;
 
-  HoldLimits limits() const;  ///< physical_models B1
-  void visit(ConfigVisitor& v);
+  HoldLimits limits() const;     ///< physical_models B1
+  void visit(ConfigVisitor& v);  ///< `model: NAME` (cup_models.hpp) sets all but the pose, then the other keys
   void validate() const;
 };
 

@@ -45,7 +45,14 @@ void pick_fields(Archive& archive, Pick& pick) {
   archive("place_rotation", pick.place_rotation);
   archive("swing", pick.swing);
   archive("peak_force", pick.peak_force);
+  archive("hold_use", pick.hold_use);
+  archive("contact_force", pick.contact_force);
+  archive("contact_depth", pick.contact_depth);
+  archive("contact", pick.contact);
   archive("neighbours_moved", pick.neighbours_moved);
+  archive("neighbours_dragged", pick.neighbours_dragged);
+  archive("parts_dropped_back", pick.parts_dropped_back);
+  archive("parts_lost", pick.parts_lost);
   archive.hash("frame_hash", pick.frame_hash);
   archive.hash("estimates_hash", pick.estimates_hash);
   archive.hash("world_hash", pick.world_hash);

@@ -15,7 +15,7 @@
 
 namespace binpick {
 
-inline constexpr int kRecordSchema = 1;
+inline constexpr int kRecordSchema = 2;
 
 struct PickRecord {
   PickOutcome outcome = PickOutcome::kNoDetection;
@@ -30,6 +30,13 @@ struct PickRecord {
   std::optional<double> place_rotation;      ///< rad
   double swing = 0;                          ///< rad, largest tilt of the held part against the tool
   double peak_force = 0;                     ///< N, largest pull seen by the grip
+  double hold_use = 0;                       ///< largest share of a cup's limits that the load took; a jerk above 1 may be held
+  double contact_force = 0;                  ///< N, largest by arm, tool or held part on heap, bin, tray or table
+  double contact_depth = 0;                  ///< m, deepest of those contacts
+  std::string contact;                       ///< what pushed on what, at the largest force
+  int neighbours_dragged = 0;                ///< other parts that rose more than 10 mm with the held one
+  int parts_dropped_back = 0;                ///< of those, the ones that lie in the bin afterwards
+  int parts_lost = 0;                        ///< other parts that left the bin and do not lie in the tray
   int neighbours_moved = 0;                  ///< parts that moved by more than 5 mm while the target was lifted
   std::uint64_t frame_hash = 0;
   std::uint64_t estimates_hash = 0;

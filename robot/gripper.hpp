@@ -29,7 +29,9 @@ struct Contact {
   bool sealed = false;  ///< enough cups for this gripper
   std::vector<bool> cup_sealed;
   std::vector<std::string> why;  ///< per cup: why not, "" when sealed
-  HoldLimits limits;             ///< of the cups that sealed, about G
+  std::vector<double>
+      cup_vacuum;     ///< per cup: steady vacuum / that of a tight cup; below 0.8 it does not count as sealed
+  HoldLimits limits;  ///< of the cups that sealed, about G
 };
 
 /// A grasp on a part: K on the surface, +z outward; at contact z_G = -z_K, X_WG = X_WP * X_PK * X_KG.

@@ -43,7 +43,8 @@ class OneCup : public Gripper {
     contact.sealed = of_tool.cup_sealed[cup_];
     contact.cup_sealed = {contact.sealed};
     contact.why = {of_tool.why[cup_]};
-    if (contact.sealed) contact.limits = cups_[0].limits();
+    contact.cup_vacuum = {of_tool.cup_vacuum[cup_]};
+    if (contact.sealed) contact.limits = scaled(cups_[0].limits(), contact.cup_vacuum[0]);
     return contact;
   }
 

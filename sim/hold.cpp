@@ -50,8 +50,8 @@ struct CupHold::Impl {
     std::unique_ptr<Coupling> plunger;   ///< tool - lip, while free
     std::unique_ptr<Coupling> coupling;  ///< tool - part, while sealed
     btJointFeedback feedback;
-    Pose X_PU = Pose::Identity();  ///< lip in the held part
-    double sealed_for = 0, violated_for = 0;
+    Pose X_PU = Pose::Identity();                         ///< lip in the held part
+    double sealed_for = 0, violated_for = 0, steady = 1;  ///< s; s; share of the full vacuum that a leak leaves
   };
 
   Impl(World& w, BodyId t, const HoldConfig& c) : world(w), tool(t), config(c) {}
@@ -62,7 +62,7 @@ struct CupHold::Impl {
   void read_free(std::size_t i);
   void read_sealed(std::size_t i, double dt);
   void detach(std::size_t i);
-  std::optional<HoldLimit> violated(const Cup& cup, const CupState& state) const;
+  std::optional<HoldLimit> violated(const Cup& cup, CupState& state) const;
   btDiscreteDynamicsWorld& engine() const { return *world.impl().world; }
   btRigidBody& rigid(BodyId body) const { return *world.impl().at(body).rigid; }
 
@@ -127,16 +127,20 @@ void CupHold::Impl::set_lip(Coupling& joint, const CupSpec& spec, BodyId part) c
   }
 }
 
-/// A sealed lip in its plane, for this step.
+/// A sealed lip in its plane, for this step; of four cups or more on a part also along its axis beyond the plunger's
+/// stops: rigid stops would leave the shares of the load to the solver, which hangs it all on two of them.
 void CupHold::Impl::set_plane(Cup& cup, BodyId part, double dt) const {
   const btRigidBody& body = rigid(part);
   const btTransform X_WU = to_bullet(Pose(world.pose(tool) * cup.spec.X_GU));
   const btVector3 lever =
       to_bullet(Eigen::Vector3d(world.pose(part) * cup.X_PU.translation())) - body.getCenterOfMassPosition();
-  for (int axis = 0; axis < 2; ++axis) {
+  const bool shared = std::ranges::count(states, std::optional(part), &CupState::part) > 3;
+  for (int axis = 0; axis < 3; ++axis) {
     const btVector3 turning = lever.cross(X_WU.getBasis().getColumn(axis));
     const double inverse_mass = body.getInvMass() + turning.dot(body.getInvInertiaTensorWorld() * turning);
-    const SoftRow row = soft_row(config.lateral_stiffness, config.damping_ratio, inverse_mass, dt);
+    const double k = axis < 2 ? config.lateral_stiffness : cup.spec.lip_stiffness;
+    const bool soft = axis < 2 || shared;
+    const SoftRow row = soft ? soft_row(k, config.damping_ratio, inverse_mass, dt) : SoftRow{kStopErp, 0};
     cup.coupling->setParam(BT_CONSTRAINT_STOP_ERP, row.erp, axis);
     cup.coupling->setParam(BT_CONSTRAINT_STOP_CFM, row.cfm, axis);
   }
@@ -169,7 +173,7 @@ void CupHold::Impl::read_sealed(std::size_t i, double dt) {
   state.compression = -((world.pose(tool) * cup.spec.X_GU).inverse() * X_WU).translation().z();
   state.press = std::max(0.0, force_U.z());
   cup.sealed_for += dt;
-  state.vacuum_share = 1 - std::exp(-cup.sealed_for / cup.spec.time_constant);
+  state.vacuum_share = cup.steady * (1 - std::exp(-cup.sealed_for / cup.spec.time_constant));
   const std::optional<HoldLimit> limit = violated(cup, state);
   cup.violated_for = limit ? cup.violated_for + dt : 0;
   if (cup.violated_for < config.break_time) return;
@@ -177,15 +181,19 @@ void CupHold::Impl::read_sealed(std::size_t i, double dt) {
   detach(i);
 }
 
-std::optional<HoldLimit> CupHold::Impl::violated(const Cup& cup, const CupState& state) const {
+std::optional<HoldLimit> CupHold::Impl::violated(const Cup& cup, CupState& state) const {
   const HoldLimits& full = cup.limits;
   const double vacuum_force = full.pull * state.vacuum_share;
   const double kept_on = vacuum_force - state.pull;  // N = V - W
+  state.use = vacuum_force > 0 ? std::max(0.0, state.pull / vacuum_force) : 0;
   if (kept_on < 0 || !(full.pull > 0)) return HoldLimit::kPull;
   if (state.vacuum_share < config.grip_share) return std::nullopt;
   const double shear = state.shear / (full.shear / full.pull * kept_on);
   const double moment = state.moment / (full.moment / full.pull * kept_on);
   const double torsion = state.torsion / (full.torsion / full.pull * kept_on);
+  // M / (r N) = 1 where W / V + M / (r V) = 1, and so for shear: the form that does not run away as N goes to zero.
+  const double pull = state.pull / vacuum_force;
+  state.use = std::max(state.use, pull + std::max({shear, moment, torsion}) * (1 - pull));
   if (moment > 1 && moment >= shear && moment >= torsion) return HoldLimit::kMoment;
   if (shear > 1 && shear >= torsion) return HoldLimit::kShear;
   if (torsion > 1) return HoldLimit::kTorsion;
@@ -200,7 +208,7 @@ void CupHold::Impl::detach(std::size_t i) {
   engine().removeConstraint(cup.coupling.get());
   cup.coupling.reset();
   state.part.reset();
-  state.vacuum_share = state.pull = state.shear = state.moment = state.torsion = 0;
+  state.vacuum_share = state.pull = state.shear = state.moment = state.torsion = state.use = 0;
   const auto holds = [&](const CupState& other) { return other.part == part; };
   if (std::none_of(states.begin(), states.end(), holds)) {
     rigid(part).forceActivationState(ACTIVE_TAG);
@@ -230,7 +238,7 @@ const std::vector<BodyId>& CupHold::lips() const { return impl_->lips; }
 const std::vector<CupState>& CupHold::cups() const { return impl_->states; }
 Pose CupHold::X_WU(std::size_t cup) const { return impl_->world.pose(impl_->lips[cup]); }
 
-void CupHold::attach(std::size_t i, BodyId part) {
+void CupHold::attach(std::size_t i, BodyId part, double vacuum) {
   Impl::Cup& cup = impl_->cups[i];
   CupState& state = impl_->states[i];
   BP_CHECK(!state.part, "cup " << i << " already holds body " << *state.part);
@@ -250,7 +258,7 @@ void CupHold::attach(std::size_t i, BodyId part) {
   cup.coupling->setJointFeedback(&cup.feedback);
   impl_->engine().addConstraint(cup.coupling.get(), false);
   held.forceActivationState(DISABLE_DEACTIVATION);
-  cup.sealed_for = cup.violated_for = 0;
+  cup.sealed_for = cup.violated_for = 0, cup.steady = vacuum;
   state = CupState{};
   state.part = part;
   state.compression = -travel;

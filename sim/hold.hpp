@@ -3,10 +3,12 @@
 // Frame U of a cup: lip centre, +z leaves the tool (CupSpec). A free lip is a small dynamic body on a spring plunger:
 // it slides along z_U between 0 (fully out) and -stroke, pressed out by preload + stiffness x compression, and touches
 // parts like any other body. Where a surface seals is not decided here but by Gripper::judge. A sealed cup couples tool
-// and part at the pose they have at that moment (no snapping): along z_U the plunger with its spring and stops, in the
-// lip plane and in rotation the stiffness of the lip. The lip then rides on the part. The reaction of the coupling is
-// read every step about the lip centre and held against the limits of physical_models B1, scaled by p(t) / p_inf = 1 -
-// exp(-t / tau). With V = pull limit x share, W = pull, N = V - W the force that keeps the lip on the part:
+// and part at the pose they have at that moment (no snapping): along z_U the plunger with its spring and stops (of
+// four cups or more, whose shares of the load statics leaves open, the stops give as the lips do), in the lip plane and
+// in rotation the stiffness of the lip. The lip then rides on the
+// part. The reaction of the coupling is read every step about the lip centre and held against the limits of
+// physical_models B1, scaled by p(t) / p_inf = 1 - exp(-t / tau). With V = pull limit x share, W = pull, N = V - W the
+// force that keeps the lip on the part:
 //     W <= V,   shear <= mu N,   moment <= r N (peel),   torsion <= mu r N
 // mu, r and mu r being the ratios of the HoldLimits to their pull. A violation that lasts `break_time` breaks the cup;
 // below `grip_share` of the vacuum only W <= V counts.
@@ -43,6 +45,7 @@ struct CupState {
   double shear = 0;                    ///< N
   double moment = 0;                   ///< N m, about an axis in the lip plane, at the lip centre
   double torsion = 0;                  ///< N m
+  double use = 0;                      ///< largest of load / limit at the present vacuum; above 1 the hold is breaking
   std::optional<HoldLimit> broken_by;  ///< why the last hold of this cup ended; empty while it holds or was released
 };
 
@@ -57,8 +60,9 @@ class CupHold {
   const std::vector<CupState>& cups() const;
   Pose X_WU(std::size_t cup) const;  ///< where the lip is now
 
-  /// Couples the cup to the part at their present poses; its vacuum starts to build up.
-  void attach(std::size_t cup, BodyId part);
+  /// Couples the cup to the part at their present poses; its vacuum starts to build up, to `vacuum` of the full one (a
+  /// leaking lip).
+  void attach(std::size_t cup, BodyId part, double vacuum = 1);
   void release_all();
   /// The lips go to where the tool is, fully out (after the tool was teleported).
   void reset_lips();

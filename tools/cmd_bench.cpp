@@ -83,12 +83,12 @@ Action add_bench(CLI::App& app) {
       ->check(CLI::Range(1, 1000000));
   sensors->add_option("--json", options->json, "file for the figures");
   const Action perception = add_bench_perception(*command), score = add_bench_score(*command);
-  const Action physics = add_bench_physics(*command);
-  const CLI::App* physics_parsed = command->get_subcommand("physics");
-  const CLI::App* scores = command->get_subcommand("score");
+  const Action physics = add_bench_physics(*command), suction = add_bench_suction(*command);
   return [=] {
-    if (physics_parsed->parsed()) return physics();
-    return sensors->parsed() ? run_sensors(*options) : scores->parsed() ? score() : perception();
+    if (sensors->parsed()) return run_sensors(*options);
+    if (command->get_subcommand("physics")->parsed()) return physics();
+    if (command->get_subcommand("suction")->parsed()) return suction();
+    return command->get_subcommand("score")->parsed() ? score() : perception();
   };
 }
 

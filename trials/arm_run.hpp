@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/pick_outcome.hpp"
 #include "trials/cell_world.hpp"
@@ -35,19 +36,30 @@ class ArmRun {
   double motion_time() const { return motion_time_; }
   double vacuum_time() const { return vacuum_time_; }
   double peak_force() const { return peak_force_; }
-  /// Largest turn of `body` against the tool since this call, while it is held.
-  void watch_swing(BodyId body);
+  /// From this call on, while `body` is held: its largest turn against the tool, the largest share of a cup's limits
+  /// that the load takes, what it pushes on, and how far the other parts rise.
+  void watch_held(BodyId body);
   double swing() const { return swing_; }
+  double hold_use() const { return hold_use_; }
+  /// Largest contact of arm, tool or held part with heap, bin, tray or table, and the deepest.
+  const CellWorld::Touch& contacts() const { return contacts_; }
+  /// m, how far part i of the heap rose at most.
+  double rise(std::size_t i) const { return rise_.empty() ? 0 : rise_[i]; }
 
  private:
   void step(const Vector6d& q);
   bool collides();
+  void step_held();
+  void touch_held();
   Eigen::Matrix3d turn_of_held() const;
 
   CellWorld& cell_;
   const ExecutionConfig& config_;
   std::optional<Blocked> blocked_;
-  double motion_time_ = 0, vacuum_time_ = 0, peak_force_ = 0, swing_ = 0;
+  double motion_time_ = 0, vacuum_time_ = 0, peak_force_ = 0, swing_ = 0, hold_use_ = 0;
+  double pushed_for_ = 0;  ///< s, the held part harder than the protective force
+  CellWorld::Touch contacts_;
+  std::vector<double> start_heights_, rise_;
   double reached_ = 0;  ///< s along the last path
   BodyId held_ = -1;
   Eigen::Matrix3d R_GP_start_ = Eigen::Matrix3d::Identity();

@@ -10,9 +10,9 @@ namespace binpick {
 namespace {
 
 constexpr Material kMetal{0.6, 0, 0.3}, kDark{0.25, 0, 0.3}, kGrey{0.4, 0, 0.3};
-constexpr double kProbeBack = 0.010;                         // m: how far behind the lip a probe ray starts
-constexpr double kProbeRange = 0.035;                        // m
-constexpr std::size_t kFirstMovingLink = 2;                  // the base and the first link stand on the table
+constexpr double kProbeBack = 0.010;         // m: how far behind the lip a probe ray starts
+constexpr double kProbeRange = 0.035;        // m
+constexpr std::size_t kFirstMovingLink = 2;  // the base and the first link stand on the table
 
 std::shared_ptr<const TriangleMesh> mesh_of_all(std::span<const Primitive> shapes) {
   TriangleMesh mesh;
@@ -203,11 +203,11 @@ CellWorld::Touch CellWorld::arm_contact() {
   for (const auto& [body, name] : arm) {
     double force = 0;
     for (const World::BodyContact& contact : world_.contacts(body)) force += contact.force;
-    if (force > touch.force) touch.force = force, touch.what = name + " on a part";
+    if (force > touch.force) touch.force = force, touch.pushed = name + " on a part";
     for (const auto& [fixed, fixed_name] :
          {std::pair{thin_bin_body_, "bin"}, {tray_body, "tray"}, {table_body, "table"}}) {
       const double depth = world_.overlap(body, fixed);
-      if (depth > touch.depth) touch.depth = depth, touch.what = name + " in the " + fixed_name;
+      if (depth > touch.depth) touch.depth = depth, touch.entered = name + " in the " + fixed_name;
     }
   }
   return touch;

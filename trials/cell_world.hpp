@@ -59,11 +59,12 @@ class CellWorld {
   /// where the lip is held off the surface by something else, as seen from the lip, so that the gap shows.
   std::vector<SurfaceSample> probe_cups() const;
 
-  /// Largest force (N) on arm and tool by free bodies in the last step, and who touched whom.
+  /// Largest force on arm and tool by free bodies in the last step, deepest overlap with what is fixed, and who with
+  /// whom.
   struct Touch {
     double force = 0;  ///< N
     double depth = 0;  ///< m, of arm or tool in bin, tray or table
-    std::string what;
+    std::string pushed, entered;
   };
   Touch arm_contact();
 

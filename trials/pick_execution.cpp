@@ -14,6 +14,7 @@ namespace {
 constexpr double kDwell = 0.02;             // s at contact before the seal is judged: plungers come to rest
 constexpr double kVenting = 0.05;           // s from release until the tool leaves
 constexpr double kNeighbourMotion = 0.005;  // m
+constexpr double kDragged = 0.010;          // m
 constexpr double kAtRest = 0.02;            // m/s
 
 const char* name_of(HoldLimit limit) {
@@ -63,6 +64,11 @@ class Execution {
     result_.vacuum_time = arm_.vacuum_time();
     result_.peak_force = arm_.peak_force();
     result_.swing = arm_.swing();
+    result_.hold_use = arm_.hold_use();
+    const CellWorld::Touch& contacts = arm_.contacts();
+    result_.contact_force = contacts.force;
+    result_.contact_depth = contacts.depth;
+    result_.contact = contacts.force > 0 ? contacts.pushed : contacts.entered;
     return result_;
   }
 
@@ -117,11 +123,11 @@ class Execution {
     for (std::size_t c = 0; c < contact.cup_sealed.size(); ++c) {
       if (!contact.cup_sealed[c]) continue;
       const BodyId body = samples[c * each].body;
-      hold_.attach(c, body);
+      hold_.attach(c, body, contact.cup_vacuum[c]);
       if (++holds[body] > most) most = holds[body], held_body_ = body;
     }
     result_.lifted = cell_.heap_index_of(held_body_);
-    arm_.watch_swing(held_body_);
+    arm_.watch_held(held_body_);
   }
 
   bool build_vacuum() {
@@ -215,10 +221,15 @@ class Execution {
   }
 
   void count_neighbours() {
-    for (std::size_t i = 0; i < start_centres_.size(); ++i)
-      if (i != result_.lifted && start_in_bin_[i] &&
-          (cell_.box_center(i) - start_centres_[i]).norm() > kNeighbourMotion)
-        ++result_.neighbours_moved;
+    for (std::size_t i = 0; i < start_centres_.size(); ++i) {
+      if (i == result_.lifted || !start_in_bin_[i]) continue;
+      const bool moved = (cell_.box_center(i) - start_centres_[i]).norm() > kNeighbourMotion;
+      const bool dragged = result_.lifted && arm_.rise(i) > kDragged, in_bin = cell_.in_bin(i);
+      result_.neighbours_moved += moved ? 1 : 0;
+      result_.neighbours_dragged += dragged ? 1 : 0;
+      result_.parts_dropped_back += dragged && in_bin ? 1 : 0;
+      result_.parts_lost += !in_bin && !cell_.in_tray(i) ? 1 : 0;
+    }
   }
 
   CellWorld& cell_;
@@ -240,7 +251,8 @@ class Execution {
 
 void ExecutionConfig::visit(ConfigVisitor& v) {
   v.field("step", step, Unit::kTime, "step of the world while the arm moves");
-  v.field("protective_force", protective_force, Unit::kForce, "arm or tool against anything but the lips stops beyond");
+  v.field("protective_force", protective_force, Unit::kForce,
+          "arm, tool, held part or a plunger at its end: stop beyond");
   v.field("break_time", break_time, Unit::kTime, "how long a limit of a cup must be exceeded to break its hold");
   v.field("vacuum_share", vacuum_share, Unit::kNone, "the lift starts at this share of the full vacuum");
   v.field("vacuum_timeout", vacuum_timeout, Unit::kTime, "longest wait for it");

@@ -49,6 +49,13 @@ void execute(const Scenario& s, CellWorld& cell_world, TrialContext& context, co
   record.sim_time = result.motion_time + result.vacuum_time + s.trial.exposure;
   record.place_error = result.place_error;
   record.place_rotation = result.place_rotation;
+  record.hold_use = result.hold_use;
+  record.contact_force = result.contact_force;
+  record.contact_depth = result.contact_depth;
+  record.contact = result.contact;
+  record.neighbours_dragged = result.neighbours_dragged;
+  record.parts_dropped_back = result.parts_dropped_back;
+  record.parts_lost = result.parts_lost;
   record.swing = result.swing;
   record.peak_force = result.peak_force;
   record.neighbours_moved = result.neighbours_moved;

@@ -1,8 +1,9 @@
 // `suction`: one or several vacuum cups on a stem, each on a spring plunger.
 //
-//   preset          one_cup (one 15 mm bellows cup) | three_cups (three 10 mm cups on an 85 mm pitch circle), then the
-//                   other keys override it
-//   cups            list of cups: pose in the tip frame G, lip radius, vacuum, plunger ... (core/cup.hpp)
+//   preset          one_cup (one 15 mm bellows cup) | two_cups | three_cups | four_cups (10 mm cups on an 85 mm pitch
+//                   circle, on long spring plungers), then the other keys override it
+//   cups            list of cups: pose in the tip frame G, lip radius, vacuum, plunger ... (core/cup.hpp), each from a
+//                   `model:` of core/cup_models.hpp when it names one
 //   min_cups        cups that must seal; 0 = all
 //   tool_length     flange to tip, 240 mm: reaches the floor of a 200 mm bin with the flange above its rim
 //   stem_radius, arm_width, arm_thickness, holder_radius, holder_length, lip_height    sizes of the rigid body
@@ -11,7 +12,9 @@
 // body; the plane fitted to the lip's 32 points (the cup's best tilt) leaves no more than `lip_compliance` between the
 // highest and the lowest; it is tilted by no more than `max_tilt`; every surface normal under the lip lies within
 // `max_tilt` of it (a lip does not follow a steeper slope); nothing inside the lip rises into the cup deeper than its
-// hollow; and the plunger can bring the lip there: from touching to full stroke.
+// hollow; and the plunger can bring the lip there: from touching to full stroke. A lip that closes all but a mean gap
+// along its rim leaks: p = p_inf (1 - gap / leak_gap); from 80 % on (the vacuum switch) it counts as sealed, with
+// limits that fall as p does.
 //
 // Limits of several cups about G. V_i pull of cup i at p_i with lip radius r_i, n a direction in the tip plane, s(n)
 // the largest n.p_j + r_j (the edge about which the tool tips): the vacuum's moment about that edge is M(n) = sum V_i
@@ -35,16 +38,17 @@ constexpr int kInnerRays = 16;
 constexpr int kRays = kRimRays + kInnerRays;
 // Depth of a cup's hollow over its lip radius: what rises further touches the cup's roof and holds the lip off.
 constexpr double kHollow = 0.3;
+constexpr double kSwitch = 0.8;  // share of the vacuum at which a vacuum switch says "held" (physical_models B3)
 
 /// The surface under one cup, in its frame U.
 struct LipFit {
   double height = 0;                                    ///< of the plane at the cup's axis, along +z_U
-  double spread = 0;                                    ///< highest minus lowest rim point over the plane
+  double gap = 0;                                       ///< mean along the rim of what the lip does not close
   Eigen::Vector3d outward = -Eigen::Vector3d::UnitZ();  ///< plane's normal, towards the tool
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 };
 
-LipFit fit_lip(std::span<const Eigen::Vector3d> rim_U) {
+LipFit fit_lip(std::span<const Eigen::Vector3d> rim_U, double compliance) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : rim_U) {
@@ -56,19 +60,18 @@ LipFit fit_lip(std::span<const Eigen::Vector3d> rim_U) {
   LipFit fit;
   fit.height = plane[0];
   fit.slope = plane.tail<2>();
-  double low = 1e9, high = -1e9;
-  for (const Eigen::Vector3d& p : rim_U) {
-    const double over = p.z() - plane[0] - fit.slope.dot(p.head<2>());
-    low = std::min(low, over);
-    high = std::max(high, over);
-  }
-  fit.spread = high - low;
+  const auto over = [&](const Eigen::Vector3d& p) { return p.z() - plane[0] - fit.slope.dot(p.head<2>()); };
+  double nearest = 1e9;  // the lip rests there and reaches `compliance` farther
+  for (const Eigen::Vector3d& p : rim_U) nearest = std::min(nearest, over(p));
+  for (const Eigen::Vector3d& p : rim_U)
+    fit.gap += std::max(0.0, over(p) - nearest - compliance) / static_cast<double>(rim_U.size());
   fit.outward = Eigen::Vector3d(fit.slope.x(), fit.slope.y(), -1).normalized();
   return fit;
 }
 
-/// Why one cup does not seal; "" when it does.
-std::string leak_of(const CupSpec& cup, std::span<const SurfaceSample> samples_G) {
+/// Why one cup does not seal, "" when it does; `vacuum`: what remains of its steady vacuum.
+std::string leak_of(const CupSpec& cup, std::span<const SurfaceSample> samples_G, double& vacuum) {
+  vacuum = 0;
   const Pose X_UG = cup.X_GU.inverse();
   std::vector<Eigen::Vector3d> points_U;
   for (const SurfaceSample& sample : samples_G) {
@@ -76,8 +79,8 @@ std::string leak_of(const CupSpec& cup, std::span<const SurfaceSample> samples_G
     if (sample.body != samples_G.front().body) return "rim on two bodies";
     points_U.push_back(X_UG * sample.point_G);
   }
-  const LipFit fit = fit_lip(std::span(points_U).first(kRimRays));
-  if (fit.spread > cup.lip_compliance) return "surface uneven";
+  const LipFit fit = fit_lip(std::span(points_U).first(kRimRays), cup.lip_compliance);
+  if (fit.gap > 0 && fit.gap >= cup.leak_gap) return "surface uneven";
   const double cosine = std::cos(cup.max_tilt);
   if (-fit.outward.z() < cosine) return "tilted too far";
   for (int i = 0; i < kRimRays; ++i)
@@ -87,7 +90,8 @@ std::string leak_of(const CupSpec& cup, std::span<const SurfaceSample> samples_G
     if (fit.height + fit.slope.dot(p.head<2>()) - p.z() > kHollow * cup.radius) return "surface rises into the cup";
   if (fit.height > cup.lip_compliance) return "does not touch";
   if (-fit.height > cup.stroke + cup.lip_compliance) return "plunger at its end";
-  return "";
+  vacuum = fit.gap > 0 ? 1 - fit.gap / cup.leak_gap : 1;
+  return vacuum < kSwitch ? "leaks" : "";
 }
 
 /// What one cup adds, seen from the tip frame.
@@ -139,7 +143,7 @@ class Suction : public Gripper {
   void visit(ConfigVisitor& v) override {
     if (v.reading() && v.has("preset")) {
       std::string preset = "one_cup";
-      v.choice("preset", preset, {"one_cup", "three_cups"}, "cups and sizes to start from");
+      v.choice("preset", preset, {"one_cup", "two_cups", "three_cups", "four_cups"}, "cups and sizes to start from");
       load_preset(preset);
     }
     // A list of cups starts from plain cups, not from those of the preset.
@@ -195,12 +199,14 @@ class Suction : public Gripper {
     std::vector<HeldCup> held;
     for (std::size_t c = 0; c < cups_.size(); ++c) {
       const CupSpec& cup = cups_[c];
-      contact.why.push_back(leak_of(cup, samples_G.subspan(c * kRays, kRays)));
+      double vacuum = 0;
+      contact.why.push_back(leak_of(cup, samples_G.subspan(c * kRays, kRays), vacuum));
+      contact.cup_vacuum.push_back(vacuum);
       contact.cup_sealed.push_back(contact.why.back().empty());
       // A cup set at an angle pulls along its own axis; across the tool it is not counted.
       if (contact.cup_sealed.back())
-        held.push_back(
-            {cup.X_GU.translation().head<2>(), cup.radius, cup.limits().pull * cup.X_GU.linear()(2, 2), cup.friction});
+        held.push_back({cup.X_GU.translation().head<2>(), cup.radius,
+                        vacuum * cup.limits().pull * cup.X_GU.linear()(2, 2), cup.friction});
     }
     const std::size_t needed = min_cups_ > 0 ? static_cast<std::size_t>(min_cups_) : cups_.size();
     contact.sealed = held.size() >= needed;
@@ -252,8 +258,9 @@ class Suction : public Gripper {
     cup.stiffness = 100;
     cup.preload = 0.3;
     cup.stroke = 0.020;  // a long spring plunger: the tool may lean 10 degrees off a ring's face (max_lean)
-    for (int i = 0; i < 3; ++i) {
-      const double angle = 2 * std::numbers::pi * i / 3, pitch_radius = 0.0425;
+    const int count = name == "two_cups" ? 2 : name == "three_cups" ? 3 : 4;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count, pitch_radius = 0.0425;
       cup.X_GU = Pose(Eigen::Translation3d(pitch_radius * std::cos(angle), pitch_radius * std::sin(angle), 0));
       cups_.push_back(cup);
     }

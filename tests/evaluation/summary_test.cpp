@@ -119,7 +119,7 @@ TEST(Summary, RecordsHashKnowsNoWallTime) {
 
 TEST(SummaryJson, HasTheKeysThatScriptsRelyOn) {
   const json s = json::parse(summary_json(summarise(three_piles(), 3600)));
-  EXPECT_EQ(s["schema"], 1);
+  EXPECT_EQ(s["schema"], 2);
   EXPECT_EQ(s["trials"], 3);
   EXPECT_EQ(s["cleared"]["placed"], 19);
   EXPECT_EQ(s["cleared"]["dropped"], 30);

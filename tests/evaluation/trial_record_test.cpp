@@ -138,7 +138,7 @@ TEST(TrialRecord, BadLinesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal(""), place + "is not a JSON record");
   EXPECT_EQ(refusal(line + "x"), place + "is not a JSON record");
   EXPECT_EQ(refusal("[]").rfind(place, 0), 0u);
-  EXPECT_EQ(refusal(replaced(line, "\"schema\":1", "\"schema\":2")).rfind(place + "schema: 2", 0), 0u);
+  EXPECT_EQ(refusal(replaced(line, "\"schema\":2", "\"schema\":1")).rfind(place + "schema: 1", 0), 0u);
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10,", "")), place + "dropped: is missing");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":\"10\"")), place + "dropped: is not a whole number");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":1e10")), place + "dropped: is not a whole number");

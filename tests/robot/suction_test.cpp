@@ -4,6 +4,7 @@
 #include <functional>
 #include <numbers>
 
+#include "core/cup_models.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/yaml.hpp"
@@ -68,6 +69,59 @@ TEST(Seal, SphereOf50SealsAnd12DoesNot) {  // V-B5
   EXPECT_NEAR(50 - std::sqrt(50.0 * 50 - 100), 1.01, 0.01);  // the sag, mm
   EXPECT_TRUE(gripper->judge(sampled(*gripper, sphere(0.050, 0.010))).sealed);
   EXPECT_FALSE(gripper->judge(sampled(*gripper, sphere(0.012, 0.010))).sealed);
+}
+
+TEST(Seal, ALeakCostsVacuumInProportion) {
+  // A saddle of height h: the lip rests on its crests; 32 points of h cos(2 angle) - (-h) - compliance, where positive.
+  const auto gripper = suction("cups: [{radius: 10 mm, lip_compliance: 0.5 mm, leak_gap: 0.1 mm}]\n");
+  const auto saddle = [](double h) -> Surface {
+    return [=](double x, double y) {
+      const double z = h * (x * x - y * y) / 1e-4;
+      return at(x, y, z, {2 * h * x / 1e-4, -2 * h * y / 1e-4, -1});
+    };
+  };
+  const double full = suction("cups: [{radius: 10 mm}]\n")->cups()[0].limits().pull;
+  for (const double h : {0.0001, 0.00025, 0.00027, 0.00030, 0.00040}) {
+    double gap = 0;
+    for (int i = 0; i < 32; ++i)
+      gap += std::max(0.0, h * std::cos(2 * 2 * std::numbers::pi * i / 32) + h - 0.0005) / 32;
+    const double vacuum = std::max(0.0, 1 - gap / 0.0001);
+    const Contact contact = gripper->judge(sampled(*gripper, saddle(h)));
+    EXPECT_NEAR(contact.cup_vacuum[0], vacuum, 1e-6) << h;
+    EXPECT_EQ(contact.sealed, vacuum >= 0.8) << h << ": " << contact.why[0];
+    EXPECT_NEAR(contact.limits.pull, contact.sealed ? vacuum * full : 0, 1e-4) << h;
+  }
+}
+
+TEST(CupModels, EachIsValidAndHoldsByItsArea) {
+  for (const CupModel& model : cup_models()) {
+    CupSpec cup = model.spec;
+    EXPECT_NO_THROW(cup.validate()) << model.name;
+    const bool flat = model.name.rfind("flat_", 0) == 0;
+    const double diameter = std::stod(model.name.substr(model.name.find('_') + 1)) * 1e-3;
+    EXPECT_NEAR(cup.limits().pull, (flat ? 1.0 : 0.8) * 60e3 * std::numbers::pi * diameter * diameter / 4, 1e-9);
+    EXPECT_GE(cup.stroke, flat ? 0.001 : 0.004) << model.name;
+    EXPECT_LE(cup.stroke, flat ? 0.003 : 0.008) << model.name;
+  }
+  EXPECT_NEAR(cup_model("flat_20").spec.limits().pull, 18.85, 0.005);  // physical_models B1's table
+  EXPECT_NEAR(cup_model("flat_40").spec.limits().pull, 75.4, 0.05);
+}
+
+TEST(CupModels, AModelComesFirstAndOtherKeysOverrideIt) {
+  const auto gripper = suction(
+      "cups:\n  - {pose: {xyz: [10 mm, 0, 0]}, stroke: 20 mm, model: bellows_10}\n  - {model: flat_6}\nmin_cups: 1\n");
+  ASSERT_EQ(gripper->cups().size(), 2u);
+  EXPECT_EQ(gripper->cups()[0].radius, 0.005);
+  EXPECT_EQ(gripper->cups()[0].stroke, 0.020);
+  EXPECT_EQ(gripper->cups()[0].lip_stiffness, 1000);
+  EXPECT_NEAR(gripper->cups()[0].X_GU.translation().x(), 0.010, 1e-12);
+  EXPECT_EQ(gripper->cups()[1].radius, 0.003);
+  try {
+    suction("cups: [{model: flat_11}]\n");
+    FAIL();
+  } catch (const SpecError& error) {
+    EXPECT_NE(std::string(error.what()).find("flat_1"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Seal, RimAcrossAnEdgeNeverSeals) {
@@ -160,7 +214,7 @@ TEST(BadGripper, EachSaysWhatIsWrong) {
       {"cups: [{vacuum: 200 kPa}]\n", "cup.vacuum"},
       {"min_cups: 2\n", "gripper.min_cups"},
       {"tool_length: 20 mm\n", "gripper.tool_length: too short"},
-      {"preset: four_cups\n", "one_cup"},
+      {"preset: five_cups\n", "one_cup"},
       {"stem_radus: 1 mm\n", "did you mean stem_radius"},
   };
   for (const auto& [yaml, expected] : cases) {

@@ -100,6 +100,31 @@ TEST(Hold, VacuumBuildsUpExponentially) {
   EXPECT_FALSE(bench.held());
 }
 
+TEST(Hold, ALeakingCupBuildsUpLessAndHoldsLess) {
+  const double mass = 1, share = 0.85, expected = share * 60e3 * std::numbers::pi * 1e-4;
+  Bench bench(plate(mass), 0.005, {cup_of(0.02)}, 1.0 / 500);
+  for (double z = 0.002; z > -0.001; z -= 0.02 * bench.dt) bench.step_to({0, 0, z});
+  bench.hold->attach(0, bench.body, share);
+  for (double t = 0; t < 0.5; t += bench.dt) bench.step_to(bench.at);
+  EXPECT_NEAR(bench.hold->cups()[0].vacuum_share, share, 1e-4);
+  const double a = bench.accelerate(
+      {0, 0, 1}, [](double t) { return std::max(0.0, 2.5 * (t - 0.1)); }, 6);
+  EXPECT_FALSE(bench.held());
+  EXPECT_NEAR(mass * (kGravity + a), expected, 0.02 * expected);
+}
+
+TEST(Hold, UseIsTheLoadOverTheLimit) {
+  const double mass = 0.1, off = 0.02;  // W / V + W x / (r V), both from paper
+  CupSpec cup = cup_of(0.02, {off, 0, 0});
+  cup.lip_stiffness = 2e4;
+  Bench bench(plate(mass), 0.005, {cup}, 1.0 / 500);
+  bench.press_and_seal();
+  for (double t = 0; t < 1; t += bench.dt) bench.step_to(bench.at + Eigen::Vector3d(0, 0, 0.1 * bench.dt));
+  for (double t = 0; t < 1; t += bench.dt) bench.step_to(bench.at);
+  const double full = cup.limits().pull, expected = mass * kGravity / full * (1 + off / cup.radius);
+  EXPECT_NEAR(bench.hold->cups()[0].use, expected, 0.02 * expected);
+}
+
 TEST(Hold, AFreeLipPressesWithPreloadAndSpring) {
   Bench bench(plate(1), 0.005, {cup_of(0.02)}, 1.0 / 500);
   for (double z = 0.002; z > -0.004; z -= 1e-4) bench.step_to({0, 0, z});
@@ -122,6 +147,27 @@ TEST(Hold, StaticReactionsEqualTheWeightAndItsLever) {
   EXPECT_NEAR(std::hypot(cup.pull, cup.shear), weight, 0.002 * weight);
   EXPECT_NEAR(cup.moment, weight * lever.head<2>().norm(), 0.01 * weight * 0.01);
   EXPECT_NEAR(cup.compression, 0, 1e-4);
+}
+
+TEST(Hold, FourCupsShareTheLoadByTheLipsGive) {
+  // Springs of equal stiffness on a circle R: W_i = W/4 (1 + 2 c.p_i / R^2), c the mass centre seen from the tool's
+  // axis. With rigid stops this would be undetermined.
+  constexpr double R = 0.03;
+  const Eigen::Vector3d off(0.006, 0.003, 0);
+  std::vector<CupSpec> cups;
+  for (int k = 0; k < 4; ++k)
+    cups.push_back(cup_of(
+        0.02, off + R * Eigen::Vector3d(std::cos(k * std::numbers::pi / 2), std::sin(k * std::numbers::pi / 2), 0)));
+  Bench bench(plate(1), 0.005, cups, 1.0 / 500);
+  bench.press_and_seal();
+  for (double t = 0; t < 0.5; t += bench.dt) bench.step_to(bench.at + Eigen::Vector3d(0, 0, 0.1 * bench.dt));
+  for (double t = 0; t < 2; t += bench.dt) bench.step_to(bench.at);
+  const double weight = kGravity;
+  for (std::size_t k = 0; k < cups.size(); ++k) {
+    ASSERT_TRUE(bench.hold->cups()[k].part.has_value());
+    const double share = (1 - 2 * off.dot(cups[k].X_GU.translation() - off) / (R * R)) / 4;
+    EXPECT_NEAR(bench.hold->cups()[k].pull, share * weight, 0.02 * weight) << "cup " << k;
+  }
 }
 
 TEST(Hold, FlatPlateComesOffAtVacuumTimesArea) {  // V-B1

@@ -129,7 +129,22 @@ TEST(PickExecution, AFlatBearingIsPlacedInTheTray) {
   EXPECT_TRUE(site.cell_world.in_tray(0));
   EXPECT_FALSE(site.cell_world.in_bin(0));
   EXPECT_LT(result.swing, 0.1);
+  const double weight = bearing().mass.mass * 9.81, full = site.cell.gripper->cups()[0].limits().pull;
+  EXPECT_GT(result.hold_use, weight / (3 * full));  // at rest; acceleration and the plungers' jerk come on top
   EXPECT_EQ((site.cell_world.joints() - site.cell.q_look).norm(), 0);
+}
+
+TEST(PickExecution, TwoAndFourCupsCarryTheBearingToo) {
+  for (const auto& [cell, gripper] : {std::pair<std::string, std::string>{"mz07_four_cups.yaml", ""},
+                                      {"mz07_three_cups.yaml", "{type: suction, preset: two_cups}"},
+                                      {"mz07_three_cups.yaml", "{type: suction, preset: four_cups}"}}) {
+    Site site(cell, gripper);
+    site.lay({0.02, -0.05, 0});
+    site.start();
+    const Eigen::Vector3d top = site.cell_world.box_center(0) + Eigen::Vector3d(0, 0, 0.008);
+    const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(top), ExecutionConfig{});
+    EXPECT_EQ(to_string(result.outcome), to_string(PickOutcome::kSucceeded)) << cell << gripper << result.reason;
+  }
 }
 
 /// The first that happened, and a cell that is ready for the next pick.
@@ -159,6 +174,8 @@ TEST(PickExecution, TwoPicksInARowLeaveTheThirdPartAlone) {
   EXPECT_EQ(first.outcome, PickOutcome::kSucceeded) << first.reason;
   EXPECT_EQ(second.outcome, PickOutcome::kSucceeded) << second.reason;
   EXPECT_EQ(second.neighbours_moved, 0);
+  EXPECT_EQ(second.neighbours_dragged, 0);
+  EXPECT_EQ(second.parts_lost, 0);
   EXPECT_TRUE(site.cell_world.in_tray(0) && site.cell_world.in_tray(1));
   EXPECT_LT((site.cell_world.box_center(2) - third).norm(), 1e-4);
 }
@@ -236,6 +253,19 @@ TEST(PickExecution, PressingFarBeyondTheSurfaceStopsTheArm) {
   EXPECT_GT(result.peak_force, ExecutionConfig{}.protective_force);
 }
 
+TEST(PickExecution, AHeldPartPushedIntoTheTrayStopsTheArm) {
+  Site site("mz07_three_cups.yaml");
+  site.lay({0, 0, 0});
+  site.start();
+  const Eigen::Vector3d below(0, 0, -0.050);  // 10 mm of air, 20 mm of plunger, then nothing gives
+  const PickPlan plan = site.plan_at(top_of(site, 0), 0.35, below);
+  const ExecutionResult result = execute_pick(site.cell_world, plan, ExecutionConfig{});
+  expect_ended(site, result, PickOutcome::kProtectiveStop);
+  EXPECT_NE(result.reason.find("held part on the tray"), std::string::npos) << result.reason;
+  EXPECT_EQ(result.contact, "held part on the tray");
+  EXPECT_GT(result.contact_force, ExecutionConfig{}.protective_force);
+}
+
 TEST(PickExecution, APlaceBesideTheTrayIsWrong) {
   Site site("mz07_three_cups.yaml");
   site.lay({0, 0, 0});
@@ -257,6 +287,8 @@ TEST(PickExecution, TwoPartsAtOnceAreADoublePick) {
   const ExecutionResult result =
       execute_pick(site.cell_world, site.plan_at(top + Eigen::Vector3d(0, 0, 0.008)), ExecutionConfig{});
   expect_ended(site, result, PickOutcome::kDoublePick);
+  EXPECT_EQ(result.neighbours_dragged, 1);
+  EXPECT_EQ(result.parts_dropped_back, 0);
 }
 
 }  // namespace

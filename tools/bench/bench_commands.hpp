@@ -8,5 +8,6 @@ namespace binpick {
 Action add_bench_perception(CLI::App& bench);
 Action add_bench_score(CLI::App& bench);
 Action add_bench_physics(CLI::App& bench);
+Action add_bench_suction(CLI::App& bench);
 
 }  // namespace binpick

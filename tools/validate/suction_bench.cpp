@@ -12,13 +12,14 @@
 namespace binpick {
 namespace {
 
-constexpr double kStart = 0.002;      // m over contact
-constexpr double kPressSpeed = 0.02;  // m/s
-constexpr double kRaiseSpeed = 0.05;  // m/s
-constexpr double kRest = 0.05;        // s, until the plungers are at rest
-constexpr double kTimeConstants = 9;  // after these the vacuum is within 0.013 % of its steady value
-constexpr double kProbeBack = 0.02;   // m, behind the probe points
-constexpr double kProbeReach = 0.03;  // m
+constexpr double kStart = 0.002;             // m over contact
+constexpr double kPressSpeed = 0.02;         // m/s
+constexpr double kRaiseSpeed = 0.05;         // m/s
+constexpr double kRaiseAcceleration = 0.25;  // m/s^2
+constexpr double kRest = 0.05;               // s, until the plungers are at rest
+constexpr double kTimeConstants = 9;         // after these the vacuum is within 0.013 % of its steady value
+constexpr double kProbeBack = 0.02;          // m, behind the probe points
+constexpr double kProbeReach = 0.03;         // m
 
 Part finished(Part part, double mass) {
   part.envelope_P = part.mesh_P;
@@ -141,7 +142,7 @@ Contact LiftBench::seal() {
   const Contact contact = tool_.judge(probe_mesh(MeshQuery(part_.mesh_P), tool_, X_PG, kProbeBack, kProbeReach));
   sealed_ = contact.cup_sealed;
   for (std::size_t c = 0; c < sealed_.size(); ++c)
-    if (sealed_[c]) hold_->attach(c, body_);
+    if (sealed_[c]) hold_->attach(c, body_, contact.cup_vacuum[c]);
   return contact;
 }
 
@@ -152,8 +153,11 @@ void LiftBench::evacuate() {
 }
 
 void LiftBench::raise(double height) {
-  const double top = shift_W_.z() + height;
-  while (shift_W_.z() < top) step_to(shift_W_ + Eigen::Vector3d(0, 0, kRaiseSpeed * setting_.step));
+  const double start = shift_W_.z();
+  for (double speed = 0; shift_W_.z() < start + height;) {
+    speed = std::min(speed + kRaiseAcceleration * setting_.step, kRaiseSpeed);
+    step_to(shift_W_ + Eigen::Vector3d(0, 0, speed * setting_.step));
+  }
 }
 
 double LiftBench::accelerate(const Eigen::Vector3d& direction, const std::function<double(double)>& acceleration,
