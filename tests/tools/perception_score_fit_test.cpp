@@ -17,7 +17,7 @@ std::vector<ScoreSample> drawn(const ScoreFeatures& law, int count, Seed seed) {
   for (ScoreSample& s : samples) {
     s.part = rng.uniform() < 0.5 ? "a" : "b";
     s.features[0] = 1;
-    for (std::size_t k = 1; k < kScoreFeatures; ++k) s.features[k] = rng.normal(0.3 * static_cast<double>(k), 1);
+    for (std::size_t k = 1; k < kScoreFeatures; ++k) s.features[k] = rng.normal(0.3 * static_cast<double>(k % 4), 1);
     s.right = rng.uniform() < probability(law, s);
   }
   return samples;
