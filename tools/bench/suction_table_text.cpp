@@ -39,7 +39,10 @@ std::string text_of(const SuctionTable& table, const SuctionTableConfig& config)
       const SuctionCell& c = table.cells[k];
       text += line(" %.2f (%.2f) |", c.held / n, c.held_theory / n);
       same += c.same;
-      if (c.acceleration == moment_at) moment = line(" %.1f (%.1f) |", 1e3 * c.moment, 1e3 * c.moment_theory);
+      if (c.acceleration == moment_at) {
+        moment =
+            " " + number_or("-", "%.1f", 1e3 * c.moment) + " (" + number_or("-", "%.1f", 1e3 * c.moment_theory) + ") |";
+      }
     }
     text += moment + line(" %.3f |\n", same / (n * static_cast<double>(columns)));
   }
