@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "perception/part_view.hpp"
 
@@ -174,7 +175,7 @@ void judge_outline(const Scene& scene, const PartView& view, const std::vector<s
   std::array<double, kSides> on{}, judged{};
   double all_judged = 0, all = 0;
   for (const OutlinePixel& o : outline_of(view)) {
-    const double turn = std::atan2(o.outward.y(), o.outward.x()) / (2 * M_PI) + 1;  // 0.5 .. 1.5
+    const double turn = std::atan2(o.outward.y(), o.outward.x()) / (2 * std::numbers::pi) + 1;  // 0.5 .. 1.5
     const int side = static_cast<int>(std::lround(turn * kSides)) % kSides;
     const Rim rim = judge_rim(scene, view, o, taken, config);
     all += 1;
