@@ -17,6 +17,7 @@ function(binpick_add_library folder)
 endfunction()
 
 # binpick_add_tests(<folder> [DEPS <target>...]): every tests/<folder>/*_test.cpp in one executable <folder>_tests.
+# They keep nothing on disk between runs: what another build has cached must not stand in for what this one computes.
 # With SANITIZED they also run under the sanitizers (preset asan, target sanitized_tests, label sanitized).
 function(binpick_add_tests folder)
   cmake_parse_arguments(ARG "SANITIZED" "" "DEPS" ${ARGN})
@@ -28,7 +29,7 @@ function(binpick_add_tests folder)
   target_link_libraries(${folder}_tests PRIVATE binpick_flags ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${folder}_tests PRIVATE BINPICK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_test(NAME ${folder} COMMAND ${folder}_tests)
-  set_tests_properties(${folder} PROPERTIES LABELS unit)
+  set_tests_properties(${folder} PROPERTIES LABELS unit ENVIRONMENT BINPICK_CACHE=off)
   if(ARG_SANITIZED)
     set_tests_properties(${folder} PROPERTIES LABELS "unit;sanitized")
     add_dependencies(sanitized_tests ${folder}_tests)
