@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "perception/neighbours.hpp"
 #include "perception/preprocess.hpp"
@@ -14,30 +17,62 @@ constexpr double kSharp = 0.866;      // cosine of 30 degrees between the two fa
 constexpr float kLeastJump = 0.002f;  // m, depth step of an edge
 constexpr int kHalf = 3;              // px, window in which the outward direction is read
 
-using Key = std::array<double, 3>;
-Key key_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 struct Side {
   Eigen::Vector3d a, b;  // the edge as this face runs along it
   Eigen::Vector3d normal;
   Eigen::Vector3d outward;  // in the face's plane, away from the face
 };
 
-/// Every directed edge of the mesh, by the positions of its ends.
-std::map<std::pair<Key, Key>, Side> sides_of(const TriangleMesh& mesh) {
-  std::map<std::pair<Key, Key>, Side> sides;
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
-    const Eigen::Vector3d normal = (q - p).cross(r - p);
-    if (!(normal.norm() > 0)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]];
+/// Of every vertex, its place among all positions in the order of x, y, z: corners at one position have one rank.
+std::vector<std::uint32_t> ranks_of(const std::vector<Eigen::Vector3d>& vertices) {
+  const auto before = [&](std::uint32_t i, std::uint32_t k) {
+    const Eigen::Vector3d &a = vertices[i], &b = vertices[k];
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<std::uint32_t> order(vertices.size()), ranks(vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), before);
+  for (std::size_t i = 1; i < order.size(); ++i) ranks[order[i]] = ranks[order[i - 1]] + before(order[i - 1], order[i]);
+  return ranks;
+}
+
+/// Every directed edge of the mesh, by the positions of its ends; of several with the same ends the first.
+class Sides {
+ public:
+  explicit Sides(const TriangleMesh& mesh) {
+    const std::vector<std::uint32_t> ranks = ranks_of(mesh.vertices);
+    for (const auto& t : mesh.triangles) {
+      const Eigen::Vector3d &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
+      const Eigen::Vector3d normal = (q - p).cross(r - p);
+      if (!(normal.norm() > 0)) continue;
       const Eigen::Vector3d n = normal.normalized();
-      sides.emplace(std::pair{key_of(a), key_of(b)}, Side{a, b, n, (b - a).cross(n).normalized()});
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+        const Eigen::Vector3d &a = mesh.vertices[from], &b = mesh.vertices[to];
+        keys_.push_back({ends(ranks[from], ranks[to]), static_cast<std::uint32_t>(sides_.size())});
+        sides_.push_back({a, b, n, (b - a).cross(n).normalized()});
+      }
+    }
+    std::sort(keys_.begin(), keys_.end());
+    const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    keys_.erase(std::unique(keys_.begin(), keys_.end(), same), keys_.end());
+  }
+
+  /// visit(side, the same edge as the neighbouring face runs along it) for all that have a neighbour.
+  template <class Visit>
+  void each_with_other(Visit&& visit) const {
+    for (const auto& [key, side] : keys_) {
+      const std::pair<std::uint64_t, std::uint32_t> back{(key << 32) | (key >> 32), 0};
+      const auto other = std::lower_bound(keys_.begin(), keys_.end(), back);
+      if (other != keys_.end() && other->first == back.first) visit(sides_[side], sides_[other->second]);
     }
   }
-  return sides;
-}
+
+ private:
+  static std::uint64_t ends(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; }
+  std::vector<Side> sides_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys_;  // ranks of the two ends, then the side
+};
 
 void sample_side(const Side& side, double spacing, PointCloud& out) {
   const double length = (side.b - side.a).norm();
@@ -109,14 +144,12 @@ void edges_of_row(const Scene& scene, int v, PointCloud& out) {
 }  // namespace
 
 PointCloud model_edges(const TriangleMesh& mesh_P, const PointCloud& outside_P, double spacing) {
-  const auto sides = sides_of(mesh_P);
   PointCloud all;
-  for (const auto& [ends, side] : sides) {
-    const auto other = sides.find({ends.second, ends.first});
-    if (other == sides.end() || side.normal.dot(other->second.normal) > kSharp) continue;
-    if (side.outward.dot(other->second.normal) < 0) continue;  // a reentrant corner: no depth step there
+  Sides(mesh_P).each_with_other([&](const Side& side, const Side& other) {
+    if (side.normal.dot(other.normal) > kSharp) return;
+    if (side.outward.dot(other.normal) < 0) return;  // a reentrant corner: no depth step there
     sample_side(side, spacing, all);
-  }
+  });
   std::vector<Eigen::Vector3f> outside;
   for (const Eigen::Vector3d& p : outside_P.points) outside.push_back(p.cast<float>());
   const PointGrid grid(outside, static_cast<float>(2 * spacing));

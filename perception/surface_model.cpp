@@ -1,14 +1,16 @@
 #include "perception/surface_model.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
 #include "core/mesh_properties.hpp"
 #include "core/parallel.hpp"
 #include "core/sample_surface.hpp"
+#include "perception/parallel_rays.hpp"
 
 namespace binpick {
 namespace {
@@ -26,38 +28,16 @@ std::vector<Eigen::Vector3f> sphere_directions(int count) {
 
 constexpr int kThreads = 2;  // for the rays; the masks are put together by view
 
-/// Does the ray meet the triangle, well inside its rim? (Moeller and Trumbore 1997)
-bool surely_hits(const TriangleMesh& mesh, std::uint32_t triangle, const Eigen::Vector3d& origin,
-                 const Eigen::Vector3d& direction) {
-  constexpr double kInside = 1e-6;
-  const auto& t = mesh.triangles[triangle];
-  const Eigen::Vector3d &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
-  const Eigen::Vector3d p = direction.cross(ac);
-  const double determinant = ab.dot(p);
-  if (!(std::abs(determinant) > 1e-3 * ab.norm() * ac.norm())) return false;
-  const Eigen::Vector3d from_a = origin - a, q = from_a.cross(ab);
-  const double u = from_a.dot(p) / determinant, v = direction.dot(q) / determinant;
-  return u > kInside && v > kInside && u + v < 1 - kInside && ac.dot(q) / determinant > 0;
-}
-
-/// The views from which every sample can be seen. What hid the last sample from a view is asked first: it hides the
-/// next one, too, more often than not.
+/// The views from which every sample can be seen.
 std::vector<SurfaceModel::ViewMask> view_masks(const TriangleMesh& mesh_P, const PointCloud& samples_P, double lift,
                                                const std::vector<Eigen::Vector3f>& views) {
-  const MeshQuery query(mesh_P);
-  const double far = bounding_box(mesh_P).diagonal().norm();
   std::vector<std::vector<std::uint8_t>> seen(views.size(), std::vector<std::uint8_t>(samples_P.size(), 0));
   parallel_for(views.size(), kThreads, [&](std::size_t v) {
     const Eigen::Vector3d direction = views[v].cast<double>().normalized();
-    std::optional<std::uint32_t> hidden_by;
+    ParallelRays rays(mesh_P, direction);
     for (std::size_t i = 0; i < samples_P.size(); ++i) {
       const Eigen::Vector3d& n = samples_P.normals[i];
-      if (!(n.dot(direction) > 0.02)) continue;
-      const Eigen::Vector3d origin = samples_P.points[i] + lift * n;
-      if (hidden_by && surely_hits(mesh_P, *hidden_by, origin, direction)) continue;
-      const auto hit = query.ray(origin, direction, far);
-      if (hit) hidden_by = hit->triangle;
-      seen[v][i] = !hit;
+      seen[v][i] = n.dot(direction) > 0.02 && !rays.blocked(samples_P.points[i] + lift * n);
     }
   });
   std::vector<SurfaceModel::ViewMask> masks(samples_P.size(), 0);
@@ -82,14 +62,58 @@ SurfaceModel::SurfaceModel(const TriangleMesh& mesh_P, double spacing, double re
     normals_.push_back(cloud.normals[i].cast<float>());
     masks_.push_back(masks[i]);
   }
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    radius_ = std::max(radius_, (points_[i] - center()).norm() + spacing_);
-    for (int v = 0; v < kViews; ++v)
-      if (visible(i, v)) seen_[v].push_back(static_cast<std::uint32_t>(i));
-  }
+  for (const Eigen::Vector3f& p : points_) radius_ = std::max(radius_, (p - center()).norm() + spacing_);
   build_shell(mesh_P);
   build_field(static_cast<float>(reach));
+  list_views();
+  face_shell();
   pack();
+}
+
+void SurfaceModel::write(ByteWriter& out) const {
+  out.add(points_).add(normals_).add(masks_).add(shell_.vertices).add(shell_.triangles);
+  out.add(box_.min()).add(box_.max()).add(radius_).add(spacing_).add(low_).add(size_).add(field_);
+}
+
+SurfaceModel::SurfaceModel(ByteReader& in) : views_(sphere_directions(kViews)), seen_(kViews) {
+  in.get(points_).get(normals_).get(masks_).get(shell_.vertices).get(shell_.triangles);
+  in.get(box_.min()).get(box_.max()).get(radius_).get(spacing_).get(low_).get(size_).get(field_);
+  if (!in.ok() || !consistent()) {
+    in.fail();
+    *this = SurfaceModel();
+    return;
+  }
+  inverse_cell_ = 1 / spacing_;
+  limit_ = size_.cast<float>().array();
+  list_views();
+  face_shell();
+  pack();
+}
+
+/// Every look-up ends inside the model.
+bool SurfaceModel::consistent() const {
+  const std::size_t n = points_.size();
+  constexpr int kMostCells = 1 << 10;  // along one axis: more than a part of any shape has
+  if (normals_.size() != n || masks_.size() != n || n > std::numeric_limits<std::int32_t>::max()) return false;
+  const auto finite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
+  if (!std::all_of(points_.begin(), points_.end(), finite) || !box_.sizes().allFinite() || !low_.allFinite())
+    return false;
+  if (!(spacing_ > 0) || !std::isfinite(spacing_ + radius_) || (size_.array() < 1).any() ||
+      (size_.array() > kMostCells).any())
+    return false;
+  if (field_.size() != 2 * static_cast<std::size_t>(size_.x()) * size_.y() * size_.z()) return false;
+  const auto known = [&](std::int32_t i) { return i >= -1 && i < static_cast<std::int32_t>(n); };
+  return std::all_of(field_.begin(), field_.end(), known) &&
+         std::all_of(shell_.vertices.begin(), shell_.vertices.end(), [](const auto& p) { return p.allFinite(); }) &&
+         std::all_of(shell_.triangles.begin(), shell_.triangles.end(), [&](const auto& t) {
+           return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v < shell_.vertices.size(); });
+         });
+}
+
+void SurfaceModel::list_views() {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    for (int v = 0; v < kViews; ++v)
+      if (visible(i, v)) seen_[v].push_back(static_cast<std::uint32_t>(i));
 }
 
 /// The same once more, in the order in which the kernels read it.
@@ -178,6 +202,11 @@ void SurfaceModel::build_shell(const TriangleMesh& mesh_P) {
       t[k] = static_cast<std::uint32_t>(v);
     }
     shell_.triangles.push_back(t);
+  }
+}
+
+void SurfaceModel::face_shell() {
+  for (const auto& t : shell_.triangles) {
     const Eigen::Vector3d& a = shell_.vertices[t[0]];
     shell_normals_.push_back((shell_.vertices[t[1]] - a).cross(shell_.vertices[t[2]] - a));
   }
@@ -192,24 +221,35 @@ TriangleMesh SurfaceModel::shell_facing(const Eigen::Vector3d& eye_P) const {
   return facing;
 }
 
-/// visit(cell, point, squared distance of the cell's centre) for every point and the cells around it.
+/// visit(cell, point, squared distance of the cell's centre) for every point and the cells around it, cells by their
+/// point's number. Layers of cells are shared among threads: no two visit one cell.
 template <class Visit>
 void SurfaceModel::for_cells_within(float reach, Visit&& visit) const {
   const float cell = spacing_;
   const int steps = static_cast<int>(std::ceil(reach / cell));
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const Eigen::Array3i c = ((points_[k] - low_).array() * inverse_cell_).cast<int>();
-    const Eigen::Array3i from = (c - steps).max(0), to = (c + steps).min(size_.array() - 1);
-    for (int z = from.z(); z <= to.z(); ++z)
-      for (int y = from.y(); y <= to.y(); ++y) {
-        const std::size_t row = (static_cast<std::size_t>(z) * size_.y() + y) * size_.x();
-        for (int x = from.x(); x <= to.x(); ++x) {
-          const Eigen::Vector3f center = low_ + cell * Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f);
-          const float d = (center - points_[k]).squaredNorm();
-          if (d < reach * reach) visit(row + x, k, d);
+  std::vector<float> middle_x(static_cast<std::size_t>(size_.x()));
+  for (int x = 0; x < size_.x(); ++x) middle_x[x] = low_.x() + cell * (static_cast<float>(x) + 0.5f);
+  const auto squared = [](float d) { return d * d; };
+  const auto layers = [&](int first, int last) {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const Eigen::Array3i c = ((points_[k] - low_).array() * inverse_cell_).cast<int>();
+      const Eigen::Array3i from = (c - steps).max(Eigen::Array3i(0, 0, first));
+      const Eigen::Array3i to = (c + steps).min(Eigen::Array3i(size_.x() - 1, size_.y() - 1, last));
+      for (int z = from.z(); z <= to.z(); ++z)
+        for (int y = from.y(); y <= to.y(); ++y) {
+          const float across = squared(low_.y() + cell * (static_cast<float>(y) + 0.5f) - points_[k].y()) +
+                               squared(low_.z() + cell * (static_cast<float>(z) + 0.5f) - points_[k].z());
+          if (!(across < reach * reach)) continue;
+          const std::size_t row = (static_cast<std::size_t>(z) * size_.y() + y) * size_.x();
+          for (int x = from.x(); x <= to.x(); ++x) visit(row + x, k, squared(middle_x[x] - points_[k].x()) + across);
         }
-      }
-  }
+    }
+  };
+  const int shares = std::min(size_.z(), 2 * kThreads);
+  parallel_for(static_cast<std::size_t>(shares), kThreads, [&](std::size_t s) {
+    const int share = static_cast<int>(s);
+    layers(size_.z() * share / shares, size_.z() * (share + 1) / shares - 1);
+  });
 }
 
 void SurfaceModel::build_field(float reach) {

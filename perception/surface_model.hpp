@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/byte_stream.hpp"
 #include "core/mesh.hpp"
 #include "perception/neighbours.hpp"
 #include "perception/ray_kernel.hpp"
@@ -23,6 +24,9 @@ class SurfaceModel {
   SurfaceModel() = default;
   /// Samples every `spacing` (m); the grid answers within `reach` (m) of the surface.
   SurfaceModel(const TriangleMesh& mesh_P, double spacing, double reach);
+  /// What write() wrote; the reader has failed when it cannot be, and the model is empty.
+  explicit SurfaceModel(ByteReader& in);
+  void write(ByteWriter& out) const;
 
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
   const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
@@ -37,6 +41,7 @@ class SurfaceModel {
   /// The view nearest to a direction (towards the eye).
   int view_of(const Eigen::Vector3f& direction_P) const;
   bool visible(std::size_t point, int view) const { return (masks_[point] >> view) & 1u; }
+  ViewMask views_of(std::size_t point) const { return masks_[point]; }
   /// Indices of all points visible in a view; any stretch of the list is spread evenly over the surface.
   const std::vector<std::uint32_t>& seen_from(int view) const { return seen_[view]; }
   /// The first `most` of them (rounded up to eight) side by side, as the ray kernel reads them.
@@ -56,8 +61,11 @@ class SurfaceModel {
   void build_shell(const TriangleMesh& mesh_P);
   bool shows(const TriangleMesh& mesh_P, std::size_t triangle, const PointGrid& grid) const;
   void build_field(float reach);
+  bool consistent() const;
   template <class Visit>
   void for_cells_within(float reach, Visit&& visit) const;
+  void list_views();
+  void face_shell();
   void pack();
   std::vector<Eigen::Vector3f> points_, normals_;
   std::vector<ViewMask> masks_;
