@@ -14,6 +14,7 @@ struct ModelCloudConfig {
   double view_distance = 1.5;  ///< of the diameter, from the box's centre: near enough to look into bores
   double radius_factor = 50;   ///< Katz: sphere radius / largest distance. At this spacing 50 keeps 98 % of a ring's
                                ///< visible points and lets 0.6 % of the hidden ones through; 300 shows inner balls
+  bool covisible = false;      ///< only pairs of points that some view shows together (perception/covisibility)
 
   void visit(ConfigVisitor& v);
   void validate() const;

@@ -1,5 +1,6 @@
 #include "perception/pair_table.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/check.hpp"
@@ -49,9 +50,11 @@ struct PlacedEntry {
 
 }  // namespace
 
-PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same)
+PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same,
+                     std::span<const std::uint64_t> views)
     : quantiser_(quantiser) {
   BP_CHECK(model_P.has_normals());
+  BP_CHECK(views.empty() || views.size() == model_P.size());
   const std::vector<OrientedPoint> points = oriented(model_P);
   const std::vector<std::size_t> kept = reduced(points, symmetry, same);
   if (kept.size() > 65535)
@@ -68,7 +71,7 @@ PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const 
     pair_cells(pair_reference(references_.back()), columns.view(), static_cast<int>(points.size()), limits, cell.data(),
                alpha.data());
     for (std::size_t j = 0; j < points.size(); ++j) {
-      if (cell[j] < 0) continue;
+      if (cell[j] < 0 || (!views.empty() && (views[kept[r]] & views[j]) == 0)) continue;
       placed.push_back({cell[j], {static_cast<std::uint16_t>(alpha[j]), static_cast<std::uint16_t>(r)}});
       ++first_[static_cast<std::size_t>(cell[j]) + 1];
     }
@@ -78,6 +81,31 @@ PairTable::PairTable(const PointCloud& model_P, const Symmetry& symmetry, const 
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (const PlacedEntry& p : placed) entries_[next[static_cast<std::size_t>(p.cell)]++] = p.entry;
   count_repeats();
+}
+
+void PairTable::write(ByteWriter& out) const {
+  out.add(static_cast<std::uint64_t>(references_.size()));
+  for (const OrientedPoint& r : references_) out.add(r.point).add(r.normal);
+  out.add(first_).add(entries_);
+}
+
+PairTable::PairTable(ByteReader& in, const PairQuantiser& quantiser) : quantiser_(quantiser) {
+  references_.resize(static_cast<std::size_t>(in.length(6 * sizeof(float))));
+  for (OrientedPoint& r : references_) in.get(r.point).get(r.normal);
+  in.get(first_).get(entries_);
+  if (!in.ok() || !consistent()) {
+    in.fail();
+    *this = PairTable();
+  }
+  count_repeats();
+}
+
+/// Every look-up ends inside the table.
+bool PairTable::consistent() const {
+  const bool cells = first_.size() == static_cast<std::size_t>(quantiser_.cells()) + 1 && first_.front() == 0 &&
+                     std::is_sorted(first_.begin(), first_.end()) && first_.back() == entries_.size();
+  return cells && std::all_of(entries_.begin(), entries_.end(),
+                              [&](const PairEntry& e) { return e.reference < references_.size(); });
 }
 
 void PairTable::count_repeats() {

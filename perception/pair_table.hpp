@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/byte_stream.hpp"
 #include "core/point_cloud.hpp"
 #include "core/symmetry.hpp"
 #include "perception/pair_entry.hpp"
@@ -18,8 +19,14 @@ namespace binpick {
 class PairTable {
  public:
   PairTable() = default;
-  /// `model_P` with normals; points closer than `same` (m) after a symmetry count as the same reference.
-  PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same);
+  /// `model_P` with normals; points closer than `same` (m) after a symmetry count as the same reference. `views`: of
+  /// each point, the views that show it; then a pair needs one that shows both. Empty: all pairs.
+  PairTable(const PointCloud& model_P, const Symmetry& symmetry, const PairQuantiser& quantiser, double same,
+            std::span<const std::uint64_t> views = {});
+  /// What write() wrote of a table with this quantiser; the reader has failed when it cannot be, and the table is
+  /// empty.
+  PairTable(ByteReader& in, const PairQuantiser& quantiser);
+  void write(ByteWriter& out) const;
 
   std::span<const PairEntry> entries(int cell) const {
     return {entries_.data() + first_[cell], entries_.data() + first_[cell + 1]};
@@ -35,6 +42,7 @@ class PairTable {
   std::size_t bytes() const { return entries_.size() * sizeof(PairEntry) + first_.size() * sizeof(std::uint32_t); }
 
  private:
+  bool consistent() const;
   void count_repeats();
   PairQuantiser quantiser_;
   std::vector<OrientedPoint> references_;

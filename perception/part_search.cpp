@@ -1,9 +1,8 @@
 #include "perception/part_search.hpp"
 
-#include "core/mesh_properties.hpp"
 #include "core/parallel.hpp"
 #include "perception/edge_points.hpp"
-#include "perception/score_calibration.hpp"
+#include "perception/preprocess.hpp"
 
 namespace binpick {
 namespace {
@@ -21,24 +20,6 @@ std::vector<PoseHypothesis> clusters_of(std::vector<PoseHypothesis> votes, const
 
 SamePose same_place(const PreparedPart& part, const SearchConfig& search, double shrink) {
   return {part.center_P, shrink * search.cluster_distance * part.diameter, shrink * search.cluster_angle};
-}
-
-PreparedPart prepare_part(const Part& part, const PpfSettings& settings) {
-  PreparedPart p;
-  p.diameter = part.diameter;
-  p.symmetry = part.symmetry;
-  const Eigen::AlignedBox3d box = bounding_box(part.mesh_P);
-  p.center_P = box.center();
-  p.thinnest = box.sizes().minCoeff();
-  const double voxel = settings.preprocess.voxel * part.diameter;
-  const PointCloud visible_P = model_cloud(part.mesh_P, part.diameter, settings.model);
-  const PairQuantiser quantiser = settings.voting.quantiser(part.diameter);
-  p.table = PairTable(voxel_grid(visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
-  p.edge_table = PairTable(model_edges(part.mesh_P, visible_P, voxel), part.symmetry, quantiser, 0.8 * voxel);
-  p.surface = SurfaceModel(part.mesh_P, 0.02 * part.diameter, 1.2 * settings.icp.gate * part.diameter);
-  p.twists = symmetry_twists(part.symmetry);
-  p.overlaps = self_overlaps(part.mesh_P, part.symmetry, part.diameter);
-  return p;
 }
 
 ScenePoints scene_points(const Scene& scene, const PreparedPart& part, const PpfSettings& settings) {

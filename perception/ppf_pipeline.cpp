@@ -211,9 +211,11 @@ std::vector<Candidate> PpfEstimator::scored(const Scene& scene, std::vector<Cand
   return standing;
 }
 
-void PpfEstimator::prepare(std::span<const Part> parts) {
+void PpfEstimator::prepare(std::span<const Part> parts) { prepare_with(parts, DiskCache::from_environment()); }
+
+void PpfEstimator::prepare_with(std::span<const Part> parts, const DiskCache& cache) {
   parts_.clear();
-  for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_));
+  for (const Part& part : parts) parts_.push_back(prepare_part(part, settings_, cache));
 }
 
 EstimateResult PpfEstimator::estimate(const SceneView& view, Seed) const { return estimate_with(view, nullptr); }

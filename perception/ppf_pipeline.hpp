@@ -20,7 +20,9 @@ class PpfEstimator : public PoseEstimator {
   explicit PpfEstimator(PpfSettings defaults) : settings_(std::move(defaults)) {}
   void visit(ConfigVisitor& v) override { settings_.visit(v); }
   void validate() const override { settings_.validate(); }
+  /// As prepare_with() the cache that the environment names.
   void prepare(std::span<const Part> parts) override;
+  void prepare_with(std::span<const Part> parts, const DiskCache& cache);
   EstimateResult estimate(const SceneView& view, Seed seed) const override;
   /// The same, and beside each estimate what its score was made of.
   EstimateResult estimate_with(const SceneView& view, std::vector<ScoreFeatures>* features) const;

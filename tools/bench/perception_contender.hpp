@@ -25,7 +25,8 @@ ContenderSpec parse_contender(const std::string& text);
 
 /// What a contender has cost so far to get ready.
 struct Training {
-  double ms = 0;  ///< median of the preparations of this one part
+  double ms = 0;       ///< median of the preparations of this one part, computed anew each time
+  double load_ms = 0;  ///< the same, read from a cache on disk (core/disk_cache); 0: this estimator keeps nothing there
   std::size_t table_bytes = 0;
 };
 

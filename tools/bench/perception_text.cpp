@@ -155,6 +155,7 @@ Json row_json(std::span<const PerceptionRow> rows, const PerceptionRow& row) {
   out["instances"] = row.instances;
   add_figures(figures_of(row), out);
   out["train_ms"] = row.training.ms;
+  out["load_ms"] = row.training.load_ms;
   out["table_bytes"] = row.training.table_bytes;
   out["ratio_opencv"] = ratio_json(rows, row, "opencv");
   out["ratio_pcl"] = ratio_json(rows, row, "pcl");
@@ -217,9 +218,9 @@ std::string line_of(const WrongEstimate& w) {
 
 std::string table_of(std::span<const PerceptionRow> rows) {
   std::string out =
-      text("%-16s %-32s %-22s %6s %-19s %-19s %-19s %6s %7s %7s %6s %6s %6s %7s %7s %7s %6s  %s\n", "part", "sensor",
-           "estimator", "scenes", "recall %", "recall 0.3-0.5 %", "precision %", "top1 %", "t mm", "p95", "rot", "p95",
-           "z mm", "ms", "cpu ms", "first", "train", "prep/vote/check/icp ms");
+      text("%-16s %-32s %-22s %6s %-19s %-19s %-19s %6s %7s %7s %6s %6s %6s %7s %7s %7s %6s %6s  %s\n", "part",
+           "sensor", "estimator", "scenes", "recall %", "recall 0.3-0.5 %", "precision %", "top1 %", "t mm", "p95",
+           "rot", "p95", "z mm", "ms", "cpu ms", "first", "train", "load", "prep/vote/check/icp ms");
   for (const PerceptionRow& row : rows) {
     const RowFigures f = figures_of(row);
     out += text("%-16s %-32s %-22s %6zu %-19s %-19s %-19s %6s ", row.part.c_str(), row.sensor.c_str(),
@@ -228,8 +229,9 @@ std::string table_of(std::span<const PerceptionRow> rows) {
     out += text("%7s %7s %6s %6s ", number(1e3 * f.translation_median, 2).c_str(),
                 number(1e3 * f.translation_p95, 2).c_str(), number(kDegrees * f.rotation_median, 2).c_str(),
                 number(kDegrees * f.rotation_p95, 2).c_str());
-    out += text("%6s %7s %7s %7s %6s  ", number(1e3 * f.z_bias, 2).c_str(), number(f.median.total, 0).c_str(),
-                number(f.median.cpu, 0).c_str(), number(f.median.first, 0).c_str(), number(row.training.ms, 0).c_str());
+    out += text("%6s %7s %7s %7s %6s %6s  ", number(1e3 * f.z_bias, 2).c_str(), number(f.median.total, 0).c_str(),
+                number(f.median.cpu, 0).c_str(), number(f.median.first, 0).c_str(), number(row.training.ms, 0).c_str(),
+                row.training.load_ms > 0 ? number(row.training.load_ms, 1).c_str() : "-");
     out += text("%.0f/%.0f/%.0f/%.0f\n", f.median.preprocess, f.median.voting, f.median.verification, f.median.icp);
   }
   out += peers_of(rows);
