@@ -9,7 +9,8 @@ namespace binpick {
 namespace {
 
 constexpr std::size_t kPoints = 150;  // explained points that are tried
-constexpr double kMostMoved = 0.08;   // of the radius, by the refinement
+constexpr double kToChange = 1.5;     // times the clear lead, for a pose that replaces what the search had found
+constexpr double kOnePlace = 0.08;    // of the radius: corners that lie nearer mean one pose
 
 /// Share of the explained points that lie on the part's surface when it stands at X * T.
 double share_on_surface(const std::vector<Eigen::Vector3f>& points_P, const Pose& T, const SurfaceModel& model,
@@ -41,12 +42,11 @@ std::vector<Eigen::Vector3f> explained_points(const Scene& scene, const Candidat
   return points_P;
 }
 
-/// The refined rival has stayed where the overlap put it: it has not slid back to the pose it competes with.
-bool stayed(const Pose& refined, const Pose& put, const SurfaceModel& model) {
+bool one_place(const Pose& X_1, const Pose& X_2, const SurfaceModel& model) {
   for (int corner = 0; corner < 8; ++corner) {
     const auto type = static_cast<Eigen::AlignedBox3f::CornerType>(corner);
     const Eigen::Vector3d p_P = model.box().corner(type).cast<double>();
-    if ((refined * p_P - put * p_P).norm() > kMostMoved * model.radius()) return false;
+    if ((X_1 * p_P - X_2 * p_P).norm() > kOnePlace * model.radius()) return false;
   }
   return true;
 }
@@ -65,12 +65,20 @@ Evidence evidence(const ViewCheck& check, const std::vector<std::uint8_t>& taken
   return e;
 }
 
+/// Pixels of net evidence that decide between two poses. Twins differ along their outlines, and how sharply these show
+/// is the sensor's: where the foreground does not grow they say the same with a third of the pixels (icp weighs them
+/// alike).
+double clear_lead(const Scene& scene, const RivalConfig& rivals, const Candidate& candidate) {
+  return rivals.least_difference * (1 + 2 * scene.noise.fattening_px) / 3 * candidate.check.inliers;
+}
+
 }  // namespace
 
 void RivalConfig::visit(ConfigVisitor& v) {
   v.field("least_alike", least_alike, Unit::kNone, "of the explained points that a rival must explain, too");
   v.field("least_difference", least_difference, Unit::kNone,
-          "of the explained pixels: net evidence that decides between a pose and its rival");
+          "of the explained pixels: net evidence that decides between a pose and its rival, where the sensor's "
+          "foreground grows by a pixel; a third of it where it does not");
 }
 
 void RivalConfig::validate() const {
@@ -90,14 +98,15 @@ bool settle_rivals(const Scene& scene, const SurfaceModel& model, const std::vec
     if (share_on_surface(points_P, overlap.T, model, near) < settings.rivals.least_alike) continue;
     Candidate rival = candidate;
     rival.fit = refine_pose(scene, model, X_CP * overlap.T, settings.icp, IcpStage::kFine);
-    if (!stayed(rival.fit.X_CP, X_CP * overlap.T, model)) continue;
+    if (!one_place(rival.fit.X_CP, X_CP * overlap.T, model)) continue;   // slid back, or elsewhere
+    if (one_place(rival.fit.X_CP, candidate.fit.X_CP, model)) continue;  // an earlier overlap led here
     if (!fits_bin(scene, model, rival.fit.X_CP, settings.check)) continue;
     rival.check = check_view(scene, model, rival.fit.X_CP, settings.check);
     const Evidence now = evidence(candidate.check, taken), then = evidence(rival.check, taken);
     const double lead = then.for_it - now.for_it;
-    const double clear = settings.rivals.least_difference * candidate.check.inliers;
+    const double clear = clear_lead(scene, settings.rivals, candidate);
     if (lead < -clear || then.of_others > now.of_others + clear) continue;
-    rival.ambiguous = lead <= clear;
+    rival.ambiguous = lead <= kToChange * clear;
     candidate.ambiguous = rival.ambiguous;
     // Between equals the choice is free, and the one that stands better against other poses is the practical one.
     if (rival.ambiguous && rival.check.score() <= candidate.check.score()) continue;

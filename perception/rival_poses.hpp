@@ -15,7 +15,8 @@ namespace binpick {
 
 struct RivalConfig {
   double least_alike = 0.8;        ///< of the explained points that X * T must explain, too, to be tried at all
-  double least_difference = 0.03;  ///< of the explained pixels: net evidence that decides between two poses
+  double least_difference = 0.03;  ///< of the explained pixels: net evidence that decides between two poses, where the
+                                   ///< foreground grows by a pixel; a third of it where it does not
 
   void visit(ConfigVisitor& v);
   void validate() const;

@@ -74,5 +74,58 @@ TEST(RivalPoses, WhereTheUprightCanBeSeenTheRightTwinIsKeptAndTheWrongOneReplace
   }
 }
 
+/// A block of 60 x 40 mm, 25 mm high at one end and 15 at the other. Base down or top down, it looks much the same.
+Part wedge_part() {
+  TriangleMesh mesh;
+  for (const double y : {-0.02, 0.02})
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(-0.03, 0), {0.03, 0}, {0.03, 0.015}, {-0.03, 0.025}})
+      mesh.vertices.emplace_back(p.x(), y, p.y());
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};  // the sides
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t n = (k + 1) % 4;
+    mesh.triangles.push_back({k, k + 4, n + 4});
+    mesh.triangles.push_back({k, n + 4, n});
+  }
+  return part_from("wedge", mesh, {});
+}
+
+TEST(RivalPoses, ASharpOutlineTellsTwinsOfABlockApartAndABlurredOneDoesNot) {
+  const Part wedge = wedge_part();
+  ASSERT_GT(wedge.mass.volume, 0);  // closed and outward
+  HeapOptions options;
+  options.noise = false;
+  const SurfaceModel model(wedge.mesh_P, 0.02 * wedge.diameter, 0.1 * wedge.diameter);
+  const auto overlaps = self_overlaps(wedge.mesh_P, wedge.symmetry, wedge.diameter);
+  ASSERT_FALSE(overlaps.empty());
+  const IcpConfig icp;
+  const CheckConfig check;
+  const Pose X_WP = pose_from_xyz_rpy({-0.12, -0.03, 0}, {0, 0, 0.4});  // shows an end
+  const HeapScene made = photograph(wedge, {{0, X_WP, 0, 0}}, options, Seed{6}, camera_above(0.6));
+  const Scene scene = binpick::make_scene(made.view, PreprocessConfig(), NormalsConfig(), 0.015);
+  const std::vector<std::uint8_t> nobody(scene.depth.size(), 0);
+  const Pose X_CP = made.X_WC.inverse() * X_WP;
+  const auto settled = [&](const Pose& begin, double least_difference) {
+    Candidate c;
+    c.fit = refine_pose(scene, model, begin, icp, IcpStage::kFine);
+    c.check = check_view(scene, model, c.fit.X_CP, check);
+    RivalConfig rivals;
+    rivals.least_difference = least_difference;
+    settle_rivals(scene, model, overlaps, {rivals, icp, check}, nobody, c);
+    return c;
+  };
+  const auto vertices = hull_vertices(wedge.mesh_P);
+  int twins = 0;
+  for (const SelfOverlap& overlap : overlaps) {
+    const Pose twin = X_CP * overlap.T;
+    if (!settled(twin, 3 * RivalConfig().least_difference).ambiguous) continue;  // as if outlines were blurred
+    ++twins;
+    const Candidate c = settled(twin, RivalConfig().least_difference);
+    EXPECT_FALSE(c.ambiguous);
+    EXPECT_LT(mssd(wedge, c.fit.X_CP, X_CP, vertices), 0.1 * wedge.diameter);
+  }
+  EXPECT_GT(twins, 0);
+  EXPECT_FALSE(settled(X_CP, RivalConfig().least_difference).ambiguous);
+}
+
 }  // namespace
 }  // namespace binpick
