@@ -47,6 +47,10 @@ std::unique_ptr<btCollisionShape> primitive_shape(const Primitive& primitive, do
   return shape;
 }
 
+/// A free ball is a capsule of no length: Bullet makes the contact of two spheres anew in every step, without the
+/// impulse it had, and heaps of them never come to rest.
+std::unique_ptr<btCollisionShape> ball_shape(double radius) { return std::make_unique<btCapsuleShapeZ>(radius, 0); }
+
 void add_child(World::Impl::Geometry& geometry, std::unique_ptr<btCollisionShape> child, const Pose& X_MS) {
   geometry.compound->addChildShape(to_bullet(X_MS), child.get());
   geometry.children.push_back(std::move(child));
@@ -62,6 +66,11 @@ std::uint64_t content_of(const Part& part, const CollisionShape& shape) {
     for (const Eigen::Vector3d& v : piece.vertices)
       for (int i = 0; i < 3; ++i) hasher.add(v[i]);
   }
+  for (const Primitive& solid : shape.solids_P) {
+    hasher.add(static_cast<std::uint64_t>(solid.kind));
+    for (int i = 0; i < 3; ++i) hasher.add(solid.size[i]);
+    hasher.add(solid.X_OS);
+  }
   return hasher.value();
 }
 
@@ -76,7 +85,8 @@ std::shared_ptr<World::Impl::Geometry> World::Impl::part_geometry(const Part& pa
   std::shared_ptr<Geometry>& geometry = part_geometries[content_of(part, shape)];
   if (geometry) return geometry;
   geometry = std::make_shared<Geometry>();
-  geometry->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(shape.pieces_P.size()));
+  const std::size_t children = shape.pieces_P.size() + shape.solids_P.size();
+  geometry->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(children));
   geometry->compound->setMargin(config.margin);
   const Pose X_MP = X_PM.inverse();
   for (const TriangleMesh& piece : shape.pieces_P) {
@@ -88,6 +98,12 @@ std::shared_ptr<World::Impl::Geometry> World::Impl::part_geometry(const Part& pa
       geometry->radius = std::max(geometry->radius, points_M.back().norm());
     }
     add_child(*geometry, hull_shape(points_M, centre, config.margin), Pose(Eigen::Translation3d(centre)));
+  }
+  for (const Primitive& solid : shape.solids_P) {
+    for (const Eigen::Vector3d& v : mesh_of(solid, 12).vertices)
+      geometry->radius = std::max(geometry->radius, (X_MP * v).norm());
+    const bool ball = solid.kind == Primitive::Kind::kSphere;
+    add_child(*geometry, ball ? ball_shape(solid.size.x()) : primitive_shape(solid, config.margin), X_MP * solid.X_OS);
   }
   return geometry;
 }
