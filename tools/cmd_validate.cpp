@@ -1,10 +1,12 @@
 // binpick validate SUBJECT: the numbered physical checks, measured and judged. Exit 0 when all pass, 1 otherwise.
 
+#include <algorithm>
 #include <iostream>
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "tools/commands.hpp"
+#include "tools/validate/physics_bench.hpp"
 #include "tools/validate/sensor_plots.hpp"
 #include "tools/validate/suction_bench.hpp"
 
@@ -53,11 +55,30 @@ std::vector<Verdict> validate_suction(const Options& options) {
   return bench.verdicts();
 }
 
+std::vector<Verdict> validate_physics(const Options& options) {
+  auto [first, last] = std::pair<std::uint64_t, std::uint64_t>(5000, 5000 + PhysicsBench::kFullDraws);
+  if (options.quick) last = first + kQuickSeeds;
+  if (!options.seeds.empty()) std::tie(first, last) = parse_seeds(options.seeds);
+  if (last - first > 1000) throw SpecError("--seeds: at most 1000");
+  PhysicsBench bench(first, static_cast<int>(last - first), options.quick, options.threads);
+  for (void (*check)(PhysicsBench&) : {check_invariance, check_single_body, check_cylinders, check_cuboids,
+                                       check_thrown_cuboids, check_rest, check_spheres, check_bearings})
+    check(bench);
+  std::vector<Verdict> lines = bench.verdicts();
+  if (!options.plots.empty()) drawn_or_said(plot_physics(lines, options.plots), options.plots);
+  std::stable_sort(lines.begin(), lines.end(), [](const Verdict& a, const Verdict& b) { return a.id < b.id; });
+  return lines;
+}
+
+std::vector<Verdict> validate(const Options& options) {
+  if (options.subject == "physics") return validate_physics(options);
+  return options.subject == "suction" ? validate_suction(options) : validate_sensors(options);
+}
+
 int run(const Options& options) {
   if (!options.json.empty()) write_file(options.json, "[]\n");  // a place that cannot be written is known at once
   if (!options.plots.empty()) make_folder(options.plots);
-  const std::vector<Verdict> verdicts =
-      options.subject == "suction" ? validate_suction(options) : validate_sensors(options);
+  const std::vector<Verdict> verdicts = validate(options);
   if (!options.json.empty()) write_file(options.json, json_of(verdicts));
   std::cout << table_of(verdicts) << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
@@ -71,7 +92,7 @@ Action add_validate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("validate", "physical checks: measured value, expected value, verdict");
   command->add_option("subject", options->subject, "what to check")
       ->required()
-      ->check(CLI::IsMember({"sensors", "suction"}));
+      ->check(CLI::IsMember({"sensors", "suction", "physics"}));
   command->add_flag("--quick", options->quick, "fewer seeds and smaller images, tolerances widened accordingly");
   command->add_option("--seeds", options->seeds, "A:B, seeds A .. B-1; default 5000:5020, quick 5000:5004");
   command->add_option("--threads", options->threads, "results do not depend on it")->check(CLI::Range(1, 256));

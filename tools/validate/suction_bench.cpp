@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/yaml.hpp"
-#include "evaluation/statistics.hpp"
 #include "robot/pick_sites.hpp"
 #include "sim/collision_shape.hpp"
 
@@ -30,15 +29,6 @@ Part finished(Part part, double mass) {
   part.box_center_P = bounding_box(part.mesh_P).center();
   part.restitution = 0;
   return part;
-}
-
-/// Quantile 0.975 of Student's distribution (Abramowitz, Stegun 26.7.5, three terms: 4 % low at 3 degrees of freedom,
-/// exact to 0.1 % from 9).
-double student(int freedom) {
-  constexpr double z = 1.959964;
-  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, n = freedom;
-  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
-         (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
 }
 
 }  // namespace
@@ -201,24 +191,11 @@ std::vector<double> SuctionBench::each(const char* check, const std::function<do
 }
 
 void SuctionBench::mean_line(Verdict line, const std::vector<double>& values) {
-  line.samples = static_cast<int>(values.size());
-  line.value = mean(values);
-  double squares = 0;
-  for (const double v : values) squares += (v - line.value) * (v - line.value);
-  const int freedom = line.samples - 1;
-  const double half = freedom > 0 ? student(freedom) * std::sqrt(squares / freedom / line.samples) : 0;
-  line.low = line.value - half;
-  line.high = line.value + half;
-  verdicts_.push_back(line);
+  verdicts_.push_back(binpick::mean_line(std::move(line), values));
 }
 
 void SuctionBench::share_line(Verdict line, std::size_t hits, std::size_t total) {
-  line.samples = static_cast<int>(total);
-  line.value = total > 0 ? static_cast<double>(hits) / static_cast<double>(total) : std::nan("");
-  const Interval interval = wilson_interval(hits, total);
-  line.low = interval.low;
-  line.high = interval.high;
-  verdicts_.push_back(line);
+  verdicts_.push_back(binpick::share_line(std::move(line), hits, total));
 }
 
 }  // namespace binpick
