@@ -113,12 +113,14 @@ void World::Impl::land_moved_bodies() {
 void World::Impl::advance(double dt) {
   BP_CHECK(dt > 0, dt);
   set_engine_globals(config);
+  if (observer) observer->before_step(dt);
   aim_moved_bodies();
   world->stepSimulation(dt, 0);
   land_moved_bodies();
   time += dt;
   last_step = dt;
   if (freezing) update_frozen();
+  if (observer) observer->after_step();
 }
 
 World::World(const PhysicsConfig& config) : impl_(std::make_unique<Impl>(config)) {}

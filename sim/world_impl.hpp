@@ -13,6 +13,13 @@
 
 namespace binpick {
 
+/// Is told of every step (bare_bullet.cpp).
+struct StepObserver {
+  virtual ~StepObserver() = default;
+  virtual void before_step(double dt) = 0;
+  virtual void after_step() = 0;
+};
+
 struct World::Impl {
   /// Collision geometry of one solid: hulls and primitives under one compound. Shared by the instances of a part.
   struct Geometry {
@@ -79,6 +86,7 @@ struct World::Impl {
   double time = 0;
   double last_step = 0;
   bool freezing = false;
+  StepObserver* observer = nullptr;
   std::unique_ptr<btDefaultCollisionConfiguration> collision_configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   std::unique_ptr<btDbvtBroadphase> broadphase;

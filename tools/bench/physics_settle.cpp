@@ -1,6 +1,7 @@
 #include "tools/bench/physics_settle.hpp"
 
 #include "core/part.hpp"
+#include "sim/bare_bullet.hpp"
 #include "sim/bin.hpp"
 #include "sim/drop.hpp"
 #include "tools/bench/cpu_clock.hpp"
@@ -15,11 +16,16 @@ SettleCost bench_settle(const std::string& scene, int parts, std::uint64_t seed)
   World world(s.physics);
   add_bin(world, s.cell.bin, s.cell.X_WB);
   const std::vector<DropItem> items(static_cast<std::size_t>(parts), {&part, &shape, 0});
-  const CpuClock clock;
+  const BareBullet bare(world, thread_cpu_seconds);
   const DropResult heap = drop_parts(world, items, s.cell.bin, s.cell.X_WB, s.drop, s.settle, Seed{seed}.child("drop"));
+  const BareBullet::Report report = bare.report();
   SettleCost cost;
-  cost.cpu = clock.seconds();
+  cost.cpu = report.ours;
+  cost.bare_cpu = report.bare;
+  cost.steps = report.steps;
+  cost.different = report.different;
   cost.scene = s.name;
+  cost.seed = seed;
   cost.parts = parts;
   cost.iterations = s.physics.iterations;
   cost.pieces = shape.pieces_P.size();
