@@ -38,7 +38,7 @@ bool same_state(const btRigidBody& a, const btRigidBody& b) {
 
 }  // namespace
 
-struct BareBullet::Impl : StepObserver {
+struct BareBullet::Impl : World::Impl::Observer {
   struct Shape {
     std::vector<std::unique_ptr<btCollisionShape>> children;
     std::unique_ptr<btCompoundShape> compound;
@@ -46,6 +46,12 @@ struct BareBullet::Impl : StepObserver {
   struct Twin {
     std::unique_ptr<btRigidBody> rigid;
     bool present = false;
+  };
+  /// Our own clock stands still while one of these lives.
+  struct Pause {
+    explicit Pause(Impl& watcher) : impl(watcher) { impl.report.ours += impl.cpu_now() - impl.resumed; }
+    ~Pause() { impl.resumed = impl.cpu_now(); }
+    Impl& impl;
   };
 
   Impl(World::Impl& observed, std::function<double()> cpu)
@@ -57,6 +63,7 @@ struct BareBullet::Impl : StepObserver {
         ours.world->getDispatchInfo().m_deterministicOverlappingPairs;
     world->getSolverInfo() = ours.world->getSolverInfo();
     BP_CHECK(ours.observer == nullptr, "a World is watched twice");
+    BP_CHECK(ours.bodies.empty(), "the bare world has to see every body come");
     ours.observer = this;
     resumed = cpu_now();
   }
@@ -66,16 +73,31 @@ struct BareBullet::Impl : StepObserver {
       if (twin.present) world->removeRigidBody(twin.rigid.get());
   }
 
+  void joined(const World::Impl::Body& body) override {
+    const Pause pause(*this);
+    const auto id = static_cast<std::size_t>(body.rigid->getUserIndex());
+    if (id == twins.size()) twins.push_back({rigid_of(body), false});
+    take_state(*twins.at(id).rigid, *body.rigid);
+    world->addRigidBody(twins[id].rigid.get());
+    twins[id].present = true;
+  }
+
+  void left(const World::Impl::Body& body) override {
+    const Pause pause(*this);
+    Twin& twin = twins.at(static_cast<std::size_t>(body.rigid->getUserIndex()));
+    world->removeRigidBody(twin.rigid.get());
+    twin.present = false;
+  }
+
   void before_step(double dt) override {
-    report.ours += cpu_now() - resumed;
+    const Pause pause(*this);
     follow();
     length = dt;
     if (report.steps % 2 == 0) step();
-    resumed = cpu_now();
   }
 
   void after_step() override {
-    report.ours += cpu_now() - resumed;
+    const Pause pause(*this);
     if (report.steps % 2 == 1) step();
     bool equal = true;
     for (std::size_t i = 0; i < twins.size(); ++i)
@@ -83,7 +105,6 @@ struct BareBullet::Impl : StepObserver {
     report.different += equal ? 0 : 1;
     ++report.steps;
     report.simulated += length;
-    resumed = cpu_now();
   }
 
   void step() {
@@ -92,17 +113,12 @@ struct BareBullet::Impl : StepObserver {
     report.bare += cpu_now() - start;
   }
 
-  /// What was done to our bodies since the last step: they were added, taken out, placed, pushed, damped, woken.
+  /// What was done to our bodies since the last step: they were pushed, damped, woken, put to sleep.
   void follow() {
     for (std::size_t i = 0; i < ours.bodies.size(); ++i) {
       const World::Impl::Body& body = ours.bodies[i];
       BP_CHECK(!body.frozen && body.kind != World::BodyKind::kMoved, "only what is dropped can be copied");
-      if (i == twins.size()) twins.push_back({rigid_of(body), false});
-      Twin& twin = twins[i];
-      if (twin.present && !body.present) world->removeRigidBody(twin.rigid.get());
-      if (!same_state(*twin.rigid, *body.rigid)) take_state(*twin.rigid, *body.rigid);
-      if (!twin.present && body.present) world->addRigidBody(twin.rigid.get());
-      twin.present = body.present;
+      if (body.present && !same_state(*twins[i].rigid, *body.rigid)) take_state(*twins[i].rigid, *body.rigid);
     }
   }
 

@@ -14,8 +14,8 @@ namespace binpick {
 
 class BareBullet {
  public:
-  /// From now on every step of `world` is taken by the bare world too. The World must outlive this object, and must not
-  /// freeze parts meanwhile. `cpu_now`: processor time of this thread, s.
+  /// From now on every step of `world`, still empty, is taken by the bare world too. The World must outlive this object
+  /// and must neither freeze parts nor move bodies meanwhile. `cpu_now`: processor time of this thread, s.
   BareBullet(World& world, std::function<double()> cpu_now);
   ~BareBullet();
   BareBullet(const BareBullet&) = delete;

@@ -125,6 +125,7 @@ void World::Impl::join_world(Body& body) {
   // Fixed and moved bodies meet free ones only.
   world->addRigidBody(body.rigid.get(), is_free ? btBroadphaseProxy::DefaultFilter : btBroadphaseProxy::StaticFilter,
                       is_free ? btBroadphaseProxy::AllFilter : btBroadphaseProxy::DefaultFilter);
+  if (observer) observer->joined(body);
 }
 
 BodyId World::Impl::add(Body body, double mass, const Eigen::Vector3d& inertia_M, const Pose& X_WO,

@@ -13,13 +13,6 @@
 
 namespace binpick {
 
-/// Is told of every step (bare_bullet.cpp).
-struct StepObserver {
-  virtual ~StepObserver() = default;
-  virtual void before_step(double dt) = 0;
-  virtual void after_step() = 0;
-};
-
 struct World::Impl {
   /// Collision geometry of one solid: hulls and primitives under one compound. Shared by the instances of a part.
   struct Geometry {
@@ -57,6 +50,15 @@ struct World::Impl {
     bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
   };
 
+  /// Is told of every step, and of bodies that enter and leave the simulation (bare_bullet.cpp).
+  struct Observer {
+    virtual ~Observer() = default;
+    virtual void joined(const Body& body) = 0;
+    virtual void left(const Body& body) = 0;
+    virtual void before_step(double dt) = 0;
+    virtual void after_step() = 0;
+  };
+
   explicit Impl(const PhysicsConfig& physics);
   ~Impl();
 
@@ -86,7 +88,7 @@ struct World::Impl {
   double time = 0;
   double last_step = 0;
   bool freezing = false;
-  StepObserver* observer = nullptr;
+  Observer* observer = nullptr;
   std::unique_ptr<btDefaultCollisionConfiguration> collision_configuration;
   std::unique_ptr<btCollisionDispatcher> dispatcher;
   std::unique_ptr<btDbvtBroadphase> broadphase;

@@ -46,10 +46,9 @@ void World::set_present(BodyId body, bool present) {
   if (b.present == present) return;
   impl_->thaw(b);
   b.present = present;
-  if (present)
-    impl_->join_world(b);
-  else
-    impl_->world->removeRigidBody(b.rigid.get());
+  if (present) return impl_->join_world(b);
+  impl_->world->removeRigidBody(b.rigid.get());
+  if (impl_->observer) impl_->observer->left(b);
 }
 
 void World::teleport(BodyId body, const Pose& X_WO) {

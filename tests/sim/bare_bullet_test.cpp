@@ -28,9 +28,10 @@ TEST(BareBullet, FollowsADropToTheLastBit) {
   EXPECT_GT(report.steps, 300u);
   EXPECT_NEAR(report.simulated, watched.time(), 1e-9);
   EXPECT_EQ(report.different, 0u);
-  // One reading before and one after each step of either world.
+  // One reading before and one after each step of the bare world; ours is read as often, and as bodies come and go.
   EXPECT_EQ(report.bare, static_cast<double>(report.steps));
-  EXPECT_EQ(report.ours, 2.0 * static_cast<double>(report.steps) + 1);
+  EXPECT_GE(report.ours, 2.0 * static_cast<double>(report.steps));
+  EXPECT_LT(report.ours, 2.0 * static_cast<double>(report.steps) + 30);
   drop(alone, bin);
   EXPECT_EQ(watched.state_hash(), alone.state_hash()) << "being watched changed the heap";
 }

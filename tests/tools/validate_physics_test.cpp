@@ -68,6 +68,13 @@ TEST(ValidatePhysics, TheQuickFormPassesAllButWhatIsKnownToFallOutside) {
   EXPECT_EQ(run.code, all ? 0 : 1) << run.out << run.err;
 }
 
+TEST(ValidatePhysics, OutsideTheProjectsFolderOneLineSaysSo) {
+  const ProgramRun run = run_program("validate physics --quick", "cd /");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("scenes/bearing_bin.yaml"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
 TEST(PhysicsChecks, AMarginThatIsNotTakenOffInsideIsNoticed) {
   const auto height = [](const PhysicsSetting& setting) {
     return line(lines_of(setting, {check_cuboids, check_rest}), "cuboids and cylinders: largest error of the height");

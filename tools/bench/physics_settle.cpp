@@ -14,9 +14,9 @@ SettleCost bench_settle(const std::string& scene, int parts, std::uint64_t seed)
   const Part part = load_part(s.parts.front().spec);
   const CollisionShape shape = collision_shape(part);
   World world(s.physics);
+  const BareBullet bare(world, thread_cpu_seconds);
   add_bin(world, s.cell.bin, s.cell.X_WB);
   const std::vector<DropItem> items(static_cast<std::size_t>(parts), {&part, &shape, 0});
-  const BareBullet bare(world, thread_cpu_seconds);
   const DropResult heap = drop_parts(world, items, s.cell.bin, s.cell.X_WB, s.drop, s.settle, Seed{seed}.child("drop"));
   const BareBullet::Report report = bare.report();
   SettleCost cost;
