@@ -7,6 +7,7 @@
 
 #include "core/convex_hull.hpp"
 #include "sim/reduced_hull.hpp"
+#include "sim/shape_error.hpp"
 #include "sim/solid_region.hpp"
 
 namespace binpick {
@@ -17,7 +18,7 @@ using Points = std::vector<Eigen::Vector3d>;
 struct Cluster {
   Points points;
   double volume = 0;
-  double air = 0;  ///< what all its merges added together
+  double air = 0;  ///< in its hull, but not in the solid
 };
 
 Cluster cluster_of(const Points& points) {
@@ -34,20 +35,31 @@ Cluster merged(const Cluster& a, const Cluster& b) {
   return result;
 }
 
-/// The cheapest merge first, until each would add more air than allowed and there are few enough pieces. The costs of
-/// pairs are kept in a table, so that a merge computes one row and not all pairs again.
+/// The cheapest merge first, for as long as the limits want fewer pieces. What pairs would add is kept in a table, so
+/// that a merge computes one row and not all pairs again.
 class Merger {
  public:
   explicit Merger(std::vector<Cluster> clusters)
       : clusters_(std::move(clusters)), alive_(clusters_.size(), true), left_(clusters_.size()) {
-    excess_.assign(clusters_.size(), std::vector<double>(clusters_.size(), INFINITY));
+    added_.assign(clusters_.size(), std::vector<double>(clusters_.size(), INFINITY));
     for (std::size_t a = 0; a < clusters_.size(); ++a) fill_row(a, a + 1);
   }
 
-  std::vector<Cluster> run(double allowed, std::size_t max_pieces) {
+  double air() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < clusters_.size(); ++i) sum += alive_[i] ? clusters_[i].air : 0;
+    return sum;
+  }
+
+  /// `unit`: the volume of the solid, so much less as the air is counted short.
+  std::vector<Cluster> run(const DecompositionLimits& limits, double unit) {
+    double sum = air();
     while (left_ > 1) {
       const auto [a, b] = cheapest();
-      if (excess_[a][b] > allowed && left_ <= max_pieces) break;
+      double allowed = left_ > limits.aim_pieces ? limits.max_air : limits.aim_air;
+      if (left_ > limits.max_pieces) allowed = INFINITY;
+      if (sum + added_[a][b] > allowed * unit) break;
+      sum += added_[a][b];
       clusters_[a] = merged(clusters_[a], clusters_[b]);
       alive_[b] = false;
       --left_;
@@ -63,7 +75,8 @@ class Merger {
   void fill_row(std::size_t a, std::size_t first) {
     for (std::size_t b = first; b < clusters_.size(); ++b) {
       if (b == a || !alive_[b]) continue;
-      excess_[std::min(a, b)][std::max(a, b)] = merged(clusters_[a], clusters_[b]).air;
+      added_[std::min(a, b)][std::max(a, b)] =
+          merged(clusters_[a], clusters_[b]).air - clusters_[a].air - clusters_[b].air;
     }
   }
   std::pair<std::size_t, std::size_t> cheapest() const {
@@ -71,14 +84,14 @@ class Merger {
     double least = INFINITY;
     for (std::size_t a = 0; a < clusters_.size(); ++a)
       for (std::size_t b = a + 1; b < clusters_.size(); ++b)
-        if (alive_[a] && alive_[b] && excess_[a][b] < least) least = excess_[a][b], best = {a, b};
+        if (alive_[a] && alive_[b] && added_[a][b] < least) least = added_[a][b], best = {a, b};
     return best;
   }
 
   std::vector<Cluster> clusters_;
   std::vector<bool> alive_;
   std::size_t left_;
-  std::vector<std::vector<double>> excess_;
+  std::vector<std::vector<double>> added_;
 };
 
 struct Cut {
@@ -120,7 +133,8 @@ std::vector<Cluster> cut_up(const TriangleMesh& mesh, const DecompositionLimits&
   done.insert(done.end(), open.begin(), open.end());
   std::vector<Cluster> clusters;
   for (const SolidRegion& region : done)
-    if (!region.hull.empty()) clusters.push_back({region.hull.vertices, enclosed_volume(region.hull), 0});
+    if (!region.hull.empty())
+      clusters.push_back({region.hull.vertices, enclosed_volume(region.hull), sampler.air_volume(region)});
   return clusters;
 }
 
@@ -131,13 +145,23 @@ std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const D
   if (whole.empty()) return {};
   const double volume = std::abs(enclosed_volume(mesh));
   if (enclosed_volume(convex_hull(mesh.vertices)) - volume < limits.convex_enough * volume) return {whole};
-  Merger merger(cut_up(mesh, limits, volume));
+  const Merger regions(cut_up(mesh, limits, volume));
   std::vector<TriangleMesh> pieces;
-  for (const Cluster& cluster : merger.run(limits.merge_air * volume, limits.max_pieces)) {
-    TriangleMesh piece = simplified_hull(cluster.points, limits.max_vertices, limits.tolerance);
-    if (!piece.empty()) pieces.push_back(std::move(piece));
+  double unit = volume;
+  // Air is counted short where hulls overlap: what the pieces really have more than the mesh corrects the second go.
+  for (int go = 0; go < 2; ++go) {
+    Merger merger = regions;
+    pieces.clear();
+    for (const Cluster& cluster : merger.run(limits, unit)) {
+      TriangleMesh piece = simplified_hull(cluster.points, limits.max_vertices, limits.tolerance);
+      if (!piece.empty()) pieces.push_back(std::move(piece));
+    }
+    if (pieces.empty()) return {whole};
+    const double real = shape_error(mesh, pieces).volume_error() * volume;
+    if (real <= limits.aim_air * volume || real <= merger.air()) break;
+    unit = volume * merger.air() / real;
   }
-  return pieces.empty() ? std::vector<TriangleMesh>{whole} : pieces;
+  return pieces;
 }
 
 }  // namespace binpick

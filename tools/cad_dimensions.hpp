@@ -1,7 +1,9 @@
 // Dimensions of our own parts in millimetres (CAD's habit, and what the STEP files hold).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace binpick {
@@ -70,6 +72,14 @@ constexpr double kPressureAngle = 20 * std::numbers::pi / 180;
 constexpr double kDedendum = 1.25;  ///< modules from the pitch to the root circle
 constexpr double kWidth = 20;
 constexpr double kBoreRadius = 10;
+
+/// Half the angle that a tooth fills at radius r: s / (2 r) at the pitch circle, less as the involute closes:
+/// pi / (2 z) + inv(alpha) - inv(acos(rb / r)), inv(x) = tan x - x.
+inline double half_tooth(double r) {
+  const auto inv = [](double x) { return std::tan(x) - x; };
+  const double base = 0.5 * kModule * kTeeth * std::cos(kPressureAngle);
+  return std::numbers::pi / (2 * kTeeth) + inv(kPressureAngle) - inv(std::acos(std::min(1.0, base / r)));
+}
 }  // namespace gear
 
 /// Plate 100 x 60 x 4 with two holes on its long axis and a slot across its middle. Origin in the centre, long side

@@ -1,5 +1,7 @@
 #include "tools/cad_pieces.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -119,14 +121,47 @@ std::vector<TriangleMesh> bolt_pieces() {
 
 std::vector<TriangleMesh> gear_pieces() {
   using namespace gear;
-  return ring_wedges(kMetres * kBoreRadius, kMetres * kModule * (0.5 * kTeeth + 1), kMetres * kWidth);
+  // One piece a tooth, from the bore to its tip. In the gap it meets its neighbours kBelowRoot under the root circle,
+  // so that what it adds beside the foot of the tooth and what it lacks of the gap's floor are least together; from
+  // there it is bounded by two straight lines, through the involute at kFlank and at the tip. 2.8 % of the gear in all.
+  constexpr double kBelowRoot = 1.5;
+  constexpr double kFlank = 0.5 * kModule * kTeeth + 0.4 * kModule;
+  constexpr double tip = 0.5 * kModule * kTeeth + kModule;
+  constexpr double gap = 0.5 * kModule * kTeeth - kDedendum * kModule - kBelowRoot;
+  const double half = std::numbers::pi / kTeeth;
+  const std::array<std::pair<double, double>, 4> corners = {
+      {{polygon_radius(kBoreRadius, kTeeth), half}, {gap, half}, {kFlank, half_tooth(kFlank)}, {tip, half_tooth(tip)}}};
+  std::vector<TriangleMesh> teeth;
+  for (int tooth = 0; tooth < kTeeth; ++tooth) {
+    std::vector<Eigen::Vector3d> points;
+    for (const auto& [radius, angle] : corners)
+      for (const double side : {-1.0, 1.0})
+        for (const double z : {-kWidth / 2, kWidth / 2})
+          points.push_back(kMetres * on_circle(radius, 2 * half * tooth + side * angle, z));
+    teeth.push_back(convex_hull(points));
+  }
+  return teeth;
 }
 
 std::vector<TriangleMesh> plate_pieces() {
   using namespace plate;
-  const double x = kLength / 2, y = kWidth / 2, z = kThickness / 2, inner = kSlotWidth / 2, end = kSlotLength / 2;
-  return {block({-x, -y, -z}, {-inner, y, z}), block({inner, -y, -z}, {x, y, z}),
-          block({-inner, -y, -z}, {inner, -end, z}), block({-inner, end, -z}, {inner, y, z})};
+  const double x = kLength / 2, y = kWidth / 2, z = kThickness / 2, inner = kSlotWidth / 2;
+  // Square holes and a slot with square ends, each of the area of the drawn one.
+  const double hole = kHoleRadius * std::sqrt(std::numbers::pi) / 2;
+  const double end = kSlotLength / 2 - inner + std::numbers::pi * inner / 4;
+  std::vector<TriangleMesh> blocks;
+  for (const double side : {-1.0, 1.0}) {
+    const auto strip = [&](double x0, double y0, double x1, double y1) {
+      blocks.push_back(block({std::min(side * x0, side * x1), y0, -z}, {std::max(side * x0, side * x1), y1, z}));
+    };
+    strip(inner, -end, kHoleX - hole, end);
+    strip(kHoleX - hole, -end, kHoleX + hole, -hole);
+    strip(kHoleX - hole, hole, kHoleX + hole, end);
+    strip(kHoleX + hole, -end, x, end);
+  }
+  blocks.push_back(block({-x, -y, -z}, {x, -end, z}));
+  blocks.push_back(block({-x, end, -z}, {x, y, z}));
+  return blocks;
 }
 
 std::vector<TriangleMesh> shaft_pieces() {

@@ -17,10 +17,9 @@ std::vector<TriangleMesh> ring_wedges(double inner, double outer, double width);
 std::vector<TriangleMesh> bearing_pieces();
 std::vector<TriangleMesh> bracket_pieces();
 std::vector<TriangleMesh> tee_pieces();
-std::vector<TriangleMesh> bolt_pieces();  ///< head and shank, the chamfer left out
-std::vector<TriangleMesh>
-gear_pieces();  ///< eight wedges round the bore, a corner at each tooth: no gaps between teeth
-std::vector<TriangleMesh> plate_pieces();  ///< four strips round the slot, closed over the holes
+std::vector<TriangleMesh> bolt_pieces();   ///< head and shank, the chamfer left out
+std::vector<TriangleMesh> gear_pieces();   ///< one a tooth, from the bore to its tip: gears mesh
+std::vector<TriangleMesh> plate_pieces();  ///< ten blocks round the slot and the holes, which are square
 std::vector<TriangleMesh> shaft_pieces();  ///< both halves, the chamfers left out
 
 }  // namespace binpick

@@ -23,16 +23,6 @@ constexpr int kFlankPoints = 5;  // the spline through them stays within 2 micro
 
 gp_Pnt on_circle(double r, double angle, double z) { return {r * std::cos(angle), r * std::sin(angle), z}; }
 
-/// Half the angle that a tooth fills at radius r: s / (2 r) at the pitch circle, less as the involute closes:
-/// pi / (2 z) + inv(alpha) - inv(acos(rb / r)), inv(x) = tan x - x.
-double half_tooth(double r) {
-  using namespace gear;
-  const auto inv = [](double x) { return std::tan(x) - x; };
-  const double pitch = 0.5 * kModule * kTeeth;
-  const double base = pitch * std::cos(kPressureAngle);
-  return kPi / (2 * kTeeth) + inv(kPressureAngle) - inv(std::acos(std::min(1.0, base / r)));
-}
-
 /// One flank, from the base circle to the tip circle (side +1: at positive angles) or back.
 TopoDS_Edge flank(double middle, double side, double base, double tip) {
   TColgp_Array1OfPnt points(1, kFlankPoints);
@@ -40,7 +30,7 @@ TopoDS_Edge flank(double middle, double side, double base, double tip) {
     // Denser towards the base circle, where the involute bends most.
     const double share = static_cast<double>(k) / (kFlankPoints - 1);
     const double r = base + (tip - base) * share * share;
-    points.SetValue(k + 1, on_circle(r, middle + side * half_tooth(r), -gear::kWidth / 2));
+    points.SetValue(k + 1, on_circle(r, middle + side * gear::half_tooth(r), -gear::kWidth / 2));
   }
   const Handle(Geom_Curve) spline(GeomAPI_PointsToBSpline(points, 3, 8, GeomAbs_C2, 1e-4).Curve().get());
   return BRepBuilderAPI_MakeEdge(spline);

@@ -137,7 +137,7 @@ void make_gear(const std::string& folder) {
               {"# Spur gear, module 3, 24 involute teeth, 20 mm wide, plain bore of 20 mm. Axis z, origin in the "
                "centre, a tooth\n"
                "# on x. No hub and no keyway, so that both faces are alike and every tooth is.\n",
-               "", "eight wedges over the tooth tips: teeth do not mesh in a heap",
+               "", "one a tooth, from the bore to its tip",
                "  type: dihedral\n"
                "  axis: [0, 0, 1]\n"
                "  perpendicular: [1, 0, 0]\n"
@@ -152,7 +152,7 @@ void make_plate(const std::string& folder) {
               {"# Plate 100 x 60 x 4 mm with two holes of 14 mm on its long axis and a slot of 10 x 36 mm across its "
                "middle.\n"
                "# Origin in the centre. Half turns about x, y and z carry it into itself.\n",
-               "", "four strips round the slot; the holes are left closed",
+               "", "ten blocks; the holes are squares of the same area",
                "  type: dihedral\n"
                "  axis: [0, 0, 1]\n"
                "  perpendicular: [1, 0, 0]\n"

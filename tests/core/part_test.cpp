@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/mesh_io.hpp"
+#include "core/primitive.hpp"
 #include "core/random.hpp"
 #include "core/yaml.hpp"
 #include "mesh_samples.hpp"
@@ -157,16 +158,18 @@ TEST(OwnParts, GearHasInvoluteFlanks) {
   const Eigen::Vector3d size = bounding_box(part.mesh_P).sizes();
   EXPECT_NEAR(size.x(), 0.078, 3.1e-5);  // a tip land of +-1.58 degrees as one facet lies 0.015 mm within its circle
   EXPECT_NEAR(size.z(), 0.020, 1e-9);
-  // The wedges hold all of the teeth: what collides is never smaller than what is seen.
-  double reach = 0;
-  for (const TriangleMesh& piece : part.pieces_P)
-    for (const Eigen::Vector3d& p : piece.vertices) reach = std::max(reach, p.head<2>().norm());
-  for (const Eigen::Vector3d& p : part.mesh_P.vertices) {
-    // Distance in a regular 24-gon with a corner at each tooth: the part of p along the middle of its side.
-    const double angle = std::atan2(p.y(), p.x()), side = std::numbers::pi / 12;
-    const double middle = (std::floor(angle / side) + 0.5) * side;
-    EXPECT_LT(p.head<2>().norm() * std::cos(angle - middle), reach * std::cos(side / 2) + 1e-9);
+  // A piece a tooth: over the whole width there is something at the pitch circle on a tooth, and nothing in a gap.
+  ASSERT_EQ(part.pieces_P.size(), 24u);
+  TriangleMesh pieces;
+  for (const TriangleMesh& piece : part.pieces_P) append(pieces, piece);
+  const MeshQuery collides(pieces);
+  for (int half_pitch = 0; half_pitch < 48; ++half_pitch) {
+    const double angle = half_pitch * std::numbers::pi / 24;
+    const auto hit = collides.ray({0.036 * std::cos(angle), 0.036 * std::sin(angle), 0.05}, {0, 0, -1}, 0.2);
+    ASSERT_EQ(hit.has_value(), half_pitch % 2 == 0) << half_pitch;
+    EXPECT_NEAR(hit ? hit->point.z() : 0.01, 0.01, 1e-9);
   }
+  EXPECT_NEAR(bounding_box(pieces).sizes().x(), size.x(), 3.1e-5);
 }
 
 TEST(OwnParts, PlateIsTheOneOfItsDrawing) {
@@ -174,7 +177,7 @@ TEST(OwnParts, PlateIsTheOneOfItsDrawing) {
   const double slot = 10 * 26 + std::numbers::pi * 25;
   const double volume = (100 * 60 - 2 * std::numbers::pi * 49 - slot) * 4e-9;
   EXPECT_NEAR(part.mass.volume, volume, 2e-3 * volume);
-  EXPECT_NEAR(volume_of(part.pieces_P), (100 * 60 - 10 * 36) * 4e-9, 1e-6 * volume);
+  EXPECT_NEAR(volume_of(part.pieces_P), volume, 1e-6 * volume);  // holes and slot are squares of the same area
   EXPECT_LT(part.mass.center_P.norm(), 1e-7);
   EXPECT_EQ(part.symmetry.finite.size(), 4u);
 }
