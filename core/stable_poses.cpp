@@ -50,11 +50,6 @@ struct Face {
     }
     return best->neighbour;
   }
-  double tilt() const {
-    double least = std::numbers::pi / 2;
-    for (const Edge& edge : edges) least = std::min(least, std::atan2(edge.inside, height));
-    return least;
-  }
 };
 
 /// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
@@ -175,8 +170,8 @@ bool are_twins(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Sym
   return false;
 }
 
-Groups alike(const std::vector<Face>& faces, const std::vector<std::size_t>& held, const Symmetry& symmetry,
-             double size) {
+/// Faces that hold and are neighbours of a round side.
+Groups rolling(const std::vector<Face>& faces, const std::vector<std::size_t>& held, double size) {
   Groups groups(faces.size());
   for (const std::size_t i : held)
     for (const Edge& edge : faces[i].edges) {
@@ -185,12 +180,25 @@ Groups alike(const std::vector<Face>& faces, const std::vector<std::size_t>& hel
           std::abs(faces[i].height - next.height) < kRollHeight * size)
         groups.join(i, edge.neighbour);
     }
+  return groups;
+}
+
+/// Joins the groups of faces that the symmetry carries into each other.
+void join_twins(const std::vector<Face>& faces, const std::vector<std::size_t>& held, const Symmetry& symmetry,
+                double size, Groups& groups) {
   for (const std::size_t i : held)
     for (const std::size_t j : held)
       if (j < i && groups.of(i) != groups.of(j) && std::abs(faces[i].height - faces[j].height) < kTwinHeight * size &&
           are_twins(faces[i].normal, faces[j].normal, symmetry))
         groups.join(i, j);
-  return groups;
+}
+
+/// Least angle over an edge behind which another pose begins.
+double tilt_of(const Face& face, std::size_t group, const Groups& groups) {
+  double least = std::numbers::pi / 2;
+  for (const Edge& edge : face.edges)
+    if (groups.of(edge.neighbour) != group) least = std::min(least, std::atan2(edge.inside, face.height));
+  return least;
 }
 
 Pose resting_pose(const Face& face, const Eigen::Vector3d& center_P) {
@@ -212,7 +220,9 @@ std::vector<StablePose> stable_poses(const std::vector<Eigen::Vector3d>& points_
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (faces[i].holds()) held.push_back(i);
-  const Groups groups = alike(faces, held, symmetry, size);
+  const Groups rolls = rolling(faces, held, size);
+  Groups groups = rolls;
+  join_twins(faces, held, symmetry, size, groups);
   std::map<std::size_t, StablePose> poses;  // group -> pose
   std::map<std::size_t, double> best;
   for (const std::size_t i : held) {
@@ -224,7 +234,7 @@ std::vector<StablePose> stable_poses(const std::vector<Eigen::Vector3d>& points_
     best[groups.of(i)] = faces[i].probability;
     pose.down_P = faces[i].normal;
     pose.height = faces[i].height;
-    pose.tilt = faces[i].tilt();
+    pose.tilt = tilt_of(faces[i], rolls.of(i), rolls);
     pose.X_FP = resting_pose(faces[i], center_P);
   }
   std::vector<StablePose> result;

@@ -17,7 +17,7 @@ struct StablePose {
   int faces = 1;                                       ///< how many: symmetric twins, and facets of one round side
   Eigen::Vector3d down_P = -Eigen::Vector3d::UnitZ();  ///< outward normal of the likeliest face
   double height = 0;                                   ///< m, of the mass centre over the floor
-  double tilt = 0;  ///< rad, least angle by which the part must be turned over an edge of that face before it topples
+  double tilt = 0;               ///< rad, least angle by which the part must be turned before it leaves the pose
   Pose X_FP = Pose::Identity();  ///< F: z up, floor at z = 0, the mass centre over the origin
 };
 

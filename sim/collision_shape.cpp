@@ -1,7 +1,7 @@
 #include "sim/collision_shape.hpp"
 
 #include "core/error.hpp"
-#include "sim/convex_decomposition.hpp"
+#include "sim/kept_pieces.hpp"
 #include "sim/reduced_hull.hpp"
 
 namespace binpick {
@@ -15,7 +15,8 @@ CollisionShape collision_shape(const Part& part) {
     shape.pieces_P.push_back(std::move(hull));
   }
   if (shape.pieces_P.empty())
-    shape.pieces_P = convex_decomposition(part.envelope_P.empty() ? part.mesh_P : part.envelope_P, limits);
+    shape.pieces_P = kept_decomposition(part.envelope_P.empty() ? part.mesh_P : part.envelope_P, limits,
+                                        DiskCache::from_environment());
   if (shape.pieces_P.empty()) throw AssetError(part.name + ": the mesh spans no volume that could collide");
   return shape;
 }

@@ -19,6 +19,7 @@ Action add_check(CLI::App& app);
 Action add_estimate(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_list(CLI::App& app);
+Action add_part(CLI::App& app);
 Action add_validate(CLI::App& app);
 
 /// --sensor NAME[:PRESET], as ScenarioOverrides has it.

@@ -73,6 +73,7 @@ TEST(StablePoses, CylindersFollowTheClosedForm) {
       ASSERT_NE(side, poses.end());
       EXPECT_NEAR(side->probability, eta / std::sqrt(1 + eta * eta), 1e-4) << eta;
       EXPECT_EQ(side->faces, 720);
+      EXPECT_NEAR(side->tilt, std::atan(eta), 1e-4);  // onto an end: rolling on is no toppling
       EXPECT_NEAR(total(poses), 1, 1e-9);
     }
   }

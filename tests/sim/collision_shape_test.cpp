@@ -6,7 +6,9 @@
 #include "example_parts.hpp"
 #include "sim/collision_shape.hpp"
 #include "sim/convex_decomposition.hpp"
+#include "sim/kept_pieces.hpp"
 #include "sim/reduced_hull.hpp"
+#include "tests/core/temp_folder.hpp"
 
 namespace binpick {
 namespace {
@@ -108,6 +110,67 @@ TEST(CollisionShape, ARingFromElsewhereKeepsItsHole) {
   }
   EXPECT_LT(air, 0.01 * in_ring);
   EXPECT_LT(missing, 0.02 * in_ring);
+}
+
+bool same_bits(const std::vector<TriangleMesh>& a, const std::vector<TriangleMesh>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].vertices != b[i].vertices || a[i].triangles != b[i].triangles) return false;
+  return true;
+}
+
+TEST(KeptPieces, AreThoseThatWereComputed) {
+  const TempFolder folder;
+  const DiskCache cache(folder.at("cache"));
+  const TriangleMesh mesh = l_profile();
+  const std::vector<TriangleMesh> computed = convex_decomposition(mesh);
+  ASSERT_EQ(computed.size(), 2u);
+  EXPECT_TRUE(same_bits(kept_decomposition(mesh, {}, cache), computed));  // computed, and stored
+  EXPECT_TRUE(cache.load(pieces_key(mesh, {})));
+  EXPECT_TRUE(same_bits(kept_decomposition(mesh, {}, cache), computed));  // read
+  EXPECT_TRUE(same_bits(kept_decomposition(mesh, {}, DiskCache("")), computed));
+}
+
+TEST(KeptPieces, AreReadAndNotComputedAgain) {
+  // What lies under the key of one mesh are the pieces of another.
+  const TempFolder folder;
+  const DiskCache cache(folder.at("cache")), swapped(folder.at("swapped"));
+  const TriangleMesh mesh = l_profile();
+  TriangleMesh longer = mesh;
+  for (Eigen::Vector3d& v : longer.vertices) v.z() *= 2;
+  const std::vector<TriangleMesh> of_longer = kept_decomposition(longer, {}, cache);
+  ASSERT_TRUE(swapped.store(pieces_key(mesh, {}), cache.load(pieces_key(longer, {})).value()));
+  EXPECT_TRUE(same_bits(kept_decomposition(mesh, {}, swapped), of_longer));
+}
+
+TEST(KeptPieces, MeshAndLimitsNameThem) {
+  const TriangleMesh mesh = l_profile();
+  TriangleMesh other = mesh;
+  other.vertices[3].x() += 1e-12;
+  DecompositionLimits finer;
+  finer.cells = 57;
+  DecompositionLimits more;
+  more.max_pieces = 33;
+  const CacheKey key = pieces_key(mesh, {});
+  EXPECT_EQ(pieces_key(l_profile(), {}).content, key.content);
+  for (const CacheKey& changed : {pieces_key(other, {}), pieces_key(mesh, finer), pieces_key(mesh, more)})
+    EXPECT_FALSE(changed.content == key.content);
+}
+
+TEST(KeptPieces, NonsenseIsComputedAnew) {
+  const TempFolder folder;
+  const TriangleMesh mesh = l_profile();
+  const DiskCache cache(folder.at("cache"));
+  kept_decomposition(mesh, {}, cache);
+  const std::string bytes = cache.load(pieces_key(mesh, {})).value();
+  std::string far = bytes;
+  far[far.size() - 1] = '\x7f';  // a corner that is not there
+  int k = 0;
+  for (const std::string& nonsense : {std::string(), bytes.substr(0, bytes.size() - 4), bytes + "more", far}) {
+    const DiskCache bad(folder.at("bad" + std::to_string(k++)));
+    ASSERT_TRUE(bad.store(pieces_key(mesh, {}), nonsense));
+    EXPECT_EQ(kept_decomposition(mesh, {}, bad).size(), 2u) << k;
+  }
 }
 
 TEST(CollisionShape, AMeshWithoutVolumeIsAnAssetError) {
