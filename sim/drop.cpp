@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/bin.hpp"
+#include "sim/drop_stages.hpp"
 #include "sim/settle.hpp"
 
 namespace binpick {
@@ -82,13 +83,6 @@ class Dropper {
   std::vector<BodyId> bodies_;
 };
 
-/// High enough for the topmost part that can be released.
-double guard_top(std::span<const DropItem> items, const BinSpec& bin, const DropConfig& drop) {
-  double stack = bin.inner_size.z() + drop.height + 0.5;
-  for (const DropItem& item : items) stack += item.part->diameter;
-  return stack;
-}
-
 /// Parts that leaned on the guard walls fall when these go away: they are woken and the heap settles again.
 void remove_guard(World& world, BodyId guard, const DropResult& result, double rim, const Pose& X_WB) {
   for (const BodyId body : result.bodies) {
@@ -100,15 +94,34 @@ void remove_guard(World& world, BodyId guard, const DropResult& result, double r
 
 }  // namespace
 
+double guard_top(std::span<const DropItem> items, const BinSpec& box, const DropConfig& drop) {
+  double stack = box.inner_size.z() + drop.height + 0.5;
+  for (const DropItem& item : items) stack += item.part->diameter;
+  return stack;
+}
+
+std::vector<BodyId> rain_parts(World& world, std::span<const DropItem> items, const BinSpec& box, const Pose& X_WB,
+                               const DropConfig& drop, Seed seed) {
+  std::vector<BodyId> bodies;
+  Dropper dropper(world, box, X_WB, drop);
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    if (k > 0) dropper.wait(drop.interval);
+    bodies.push_back(dropper.release(items[k], seed.child("part", k).rng()));
+  }
+  return bodies;
+}
+
 DropResult drop_parts(World& world, std::span<const DropItem> items, const BinSpec& bin, const Pose& X_WB,
                       const DropConfig& drop, const SettleConfig& settle_config, Seed seed) {
   DropResult result;
-  const BodyId guard = add_guard_walls(world, bin, X_WB, guard_top(items, bin, drop));
-  Dropper dropper(world, bin, X_WB, drop);
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    if (k > 0) dropper.wait(drop.interval);
-    result.bodies.push_back(dropper.release(items[k], seed.child("part", k).rng()));
-    result.parts.push_back(items[k].part_index);
+  const bool dump = drop.kind == "dump";
+  const BodyId guard =
+      add_guard_walls(world, bin, X_WB, dump ? dump_top(items, bin, drop) : guard_top(items, bin, drop));
+  result.bodies = (dump ? dump_parts : rain_parts)(world, items, bin, X_WB, drop, seed);
+  for (const DropItem& item : items) result.parts.push_back(item.part_index);
+  if (drop.kind == "shaken") {
+    settle_report(world, settle_config);
+    shake(world, drop.shake, seed.child("shake"));
   }
   const SettleReport first = settle_report(world, settle_config);
   remove_guard(world, guard, result, bin.inner_size.z(), X_WB);

@@ -43,19 +43,28 @@ void PhysicsConfig::validate() const {
 }
 
 void DropConfig::visit(ConfigVisitor& v) {
+  v.choice("kind", kind, {"rain", "dump", "shaken"},
+           "rain: parts fall one by one; dump: together, out of a tote; shaken: rain, then the bin vibrates");
+  v.field("fill", fill, Unit::kNone,
+          "share of the bin's volume that the parts' own volume makes, the counts say the mix; 0: the counts are numbers");
   v.field("height", height, Unit::kLength, "release height of the part's lowest possible point above heap and floor");
   v.field("interval", interval, Unit::kTime, "time between parts");
   v.field("area", area, Unit::kNone, "share of the bin's length and width in which parts are released");
   v.field("speed", speed, Unit::kSpeed, "largest random initial speed");
   v.field("spin", spin, Unit::kAngularSpeed, "largest random initial spin");
+  v.section("dump", dump, "kind dump: the tote over the bin");
+  v.section("shake", shake, "kind shaken: the vibrating table");
 }
 
 void DropConfig::validate() const {
+  require(fill >= 0 && fill <= 0.5, "drop.fill: must lie between 0 and 0.5 (parts poured without order fill no more)");
   require(height >= 0 && height <= 5, "drop.height: must lie between 0 and 5 m");
   require(interval >= 0 && interval <= 60, "drop.interval: must lie between 0 and 60 s");
   require(area >= 0 && area <= 1, "drop.area: must lie between 0 and 1");
   require(speed >= 0 && speed <= 5, "drop.speed: must lie between 0 and 5 m/s");
   require(spin >= 0 && spin <= 200, "drop.spin: must lie between 0 and 200 rad/s");
+  dump.validate();
+  shake.validate();
 }
 
 void SettleConfig::visit(ConfigVisitor& v) {

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <iostream>
+#include <numeric>
 
 #include "core/symmetry_detection.hpp"
 #include "core/yaml.hpp"
@@ -41,8 +42,8 @@ void check(const std::string& file) {
   std::printf("%s\n", file.c_str());
   for (const Part& part : context.parts) print_part(part);
   std::printf("  scene %s: %d parts, sensor %s, estimator %s, arm %s, hash %s\n", scenario.name.c_str(),
-              scenario.part_count(), scenario.sensor_type.c_str(), scenario.estimator_type.c_str(),
-              scenario.cell.arm->name().c_str(), context.hash.c_str());
+              std::accumulate(context.counts.begin(), context.counts.end(), 0), scenario.sensor_type.c_str(),
+              scenario.estimator_type.c_str(), scenario.cell.arm->name().c_str(), context.hash.c_str());
 }
 
 }  // namespace

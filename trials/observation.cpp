@@ -9,7 +9,7 @@ namespace {
 std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
   std::vector<DropItem> items;
   for (std::size_t p = 0; p < s.parts.size(); ++p)
-    for (int k = 0; k < s.parts[p].count; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
+    for (int k = 0; k < context.counts[p]; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
   seed.child("order").rng().shuffle(items);
   return items;
 }

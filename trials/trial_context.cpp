@@ -1,10 +1,15 @@
 #include "trials/trial_context.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 
 namespace binpick {
 namespace {
+
+constexpr int kMostParts = 500;  // as for counts
 
 // A part fits when it can lie in the bin in some turn about the vertical: its two smaller extents against the floor.
 void check_fits(const Part& part, const BinSpec& bin, const std::string& scene_file) {
@@ -18,6 +23,27 @@ void check_fits(const Part& part, const BinSpec& bin, const std::string& scene_f
                     format_double(extent[2]) + " x " + format_double(extent[1]) + " m)");
 }
 
+// As the scene says; or, with a fill level, in the scene's proportions so many that they fill the bin to it.
+std::vector<int> dropped_counts(const Scenario& scenario, const std::vector<Part>& parts) {
+  std::vector<int> counts;
+  double volume = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    counts.push_back(scenario.parts[i].count);
+    volume += counts.back() * parts[i].mass.volume;
+  }
+  if (scenario.drop.fill == 0) return counts;
+  const double factor = scenario.drop.fill * scenario.cell.bin.inner_size.prod() / volume;
+  double total = 0;
+  for (int& count : counts) {
+    total += std::round(count * factor);
+    if (total > kMostParts)
+      throw SpecError(scenario.file + ": drop.fill: takes more than " + std::to_string(kMostParts) + " parts");
+    count = static_cast<int>(std::lround(count * factor));
+  }
+  if (total == 0) throw SpecError(scenario.file + ": drop.fill: less than one part fills the bin so far");
+  return counts;
+}
+
 }  // namespace
 
 TrialContext make_trial_context(Scenario& scenario) {
@@ -27,6 +53,7 @@ TrialContext make_trial_context(Scenario& scenario) {
     check_fits(context.parts.back(), scenario.cell.bin, scenario.file);
     context.shapes.push_back(collision_shape(context.parts.back()));
   }
+  context.counts = dropped_counts(scenario, context.parts);
   context.hash = scenario_hash(scenario);
   context.renderer = make_renderer(scenario.renderer);
   context.planner = std::make_unique<const PickPlanner>(scenario.cell, context.parts, scenario.planning);

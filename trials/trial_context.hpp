@@ -17,6 +17,7 @@ namespace binpick {
 struct TrialContext {
   std::vector<Part> parts;
   std::vector<CollisionShape> shapes;
+  std::vector<int> counts;  ///< of each part, how many are dropped: the scene's, or what drop.fill makes of them
   std::unique_ptr<DepthRenderer> renderer;
   std::unique_ptr<const PickPlanner> planner;  ///< knows where the tool fits on the parts
   std::unique_ptr<const PoseChecker> checker;  ///< the parts prepared for scoring

@@ -115,7 +115,7 @@ bool SettledHeap::operator==(const SettledHeap& other) const {
 std::string heap_key(const Scenario& scenario, const TrialContext& context) {
   Hasher hasher;
   for (std::size_t p = 0; p < context.parts.size(); ++p)
-    add_part(hasher, context.parts[p], context.shapes[p], scenario.parts[p].count);
+    add_part(hasher, context.parts[p], context.shapes[p], context.counts[p]);
   add_config(hasher, scenario.drop);
   add_config(hasher, scenario.settle);
   add_config(hasher, scenario.physics);
