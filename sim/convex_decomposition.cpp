@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "core/convex_hull.hpp"
+#include "core/mesh_properties.hpp"
 #include "sim/reduced_hull.hpp"
 #include "sim/shape_error.hpp"
 #include "sim/solid_region.hpp"
 
 namespace binpick {
 namespace {
+
+constexpr double kSmallTolerance = 2e-3;  // of the mesh's diagonal, whatever the limits say
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -33,6 +36,15 @@ Cluster merged(const Cluster& a, const Cluster& b) {
   Cluster result = cluster_of(points);
   result.air = a.air + b.air + std::max(0.0, result.volume - a.volume - b.volume);
   return result;
+}
+
+/// The hull of the points with few corners; with twice as many where round sides would lose too much by that.
+TriangleMesh piece_of(const Points& points, const DecompositionLimits& limits) {
+  const TriangleMesh hull = simplified_hull(points, limits.max_vertices, limits.tolerance);
+  if (hull.vertices.size() < limits.max_vertices) return hull;
+  const double full = enclosed_volume(convex_hull(points));
+  if (enclosed_volume(hull) >= (1 - limits.round_loss) * full) return hull;
+  return simplified_hull(points, 2 * limits.max_vertices, limits.tolerance);
 }
 
 /// The cheapest merge first, for as long as the limits want fewer pieces. What pairs would add is kept in a table, so
@@ -140,8 +152,11 @@ std::vector<Cluster> cut_up(const TriangleMesh& mesh, const DecompositionLimits&
 
 }  // namespace
 
-std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const DecompositionLimits& limits) {
-  const TriangleMesh whole = simplified_hull(mesh.vertices, limits.max_vertices, limits.tolerance);
+std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const DecompositionLimits& given) {
+  DecompositionLimits limits = given;
+  // What is nothing on a part of 100 mm is much on one of 5.
+  limits.tolerance = std::min(limits.tolerance, kSmallTolerance * bounding_box(mesh).diagonal().norm());
+  const TriangleMesh whole = piece_of(mesh.vertices, limits);
   if (whole.empty()) return {};
   const double volume = std::abs(enclosed_volume(mesh));
   if (enclosed_volume(convex_hull(mesh.vertices)) - volume < limits.convex_enough * volume) return {whole};
@@ -153,7 +168,7 @@ std::vector<TriangleMesh> convex_decomposition(const TriangleMesh& mesh, const D
     Merger merger = regions;
     pieces.clear();
     for (const Cluster& cluster : merger.run(limits, unit)) {
-      TriangleMesh piece = simplified_hull(cluster.points, limits.max_vertices, limits.tolerance);
+      TriangleMesh piece = piece_of(cluster.points, limits);
       if (!piece.empty()) pieces.push_back(std::move(piece));
     }
     if (pieces.empty()) return {whole};

@@ -18,7 +18,8 @@ struct DecompositionLimits {
   double max_air = 0.045;       ///< down to `aim_pieces`, below this; then, down to `max_pieces`, whatever it costs
   std::size_t aim_pieces = 24;
   std::size_t max_pieces = 32;
-  std::size_t max_vertices = 64;  ///< of one piece
+  std::size_t max_vertices = 64;  ///< of one piece; twice as many when it loses more than `round_loss` by that
+  double round_loss = 0.03;       ///< share of a piece's volume
   double tolerance = 1e-4;        ///< m, vertices nearer than this to a piece's faces may be left out
   int cells = 56;                 ///< air is sampled on a grid with this many points along the longest edge
 };

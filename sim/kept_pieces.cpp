@@ -5,7 +5,7 @@
 namespace binpick {
 namespace {
 
-constexpr std::uint32_t kPiecesVersion = 1;  // of convex_decomposition: raised whenever it gives other pieces
+constexpr std::uint32_t kPiecesVersion = 2;  // of convex_decomposition: raised whenever it gives other pieces
 
 std::vector<TriangleMesh> read_pieces(std::string_view bytes) {
   ByteReader in(bytes);
@@ -32,7 +32,7 @@ std::string bytes_of(const std::vector<TriangleMesh>& pieces) {
 CacheKey pieces_key(const TriangleMesh& mesh, const DecompositionLimits& limits) {
   ByteWriter inputs;
   inputs.add(mesh.vertices).add(mesh.triangles);
-  inputs.add(limits.convex_enough).add(limits.piece_air).add(limits.aim_air).add(limits.max_air);
+  inputs.add(limits.convex_enough).add(limits.piece_air).add(limits.aim_air).add(limits.max_air).add(limits.round_loss);
   for (const std::size_t count : {limits.aim_pieces, limits.max_pieces, limits.max_vertices})
     inputs.add(static_cast<std::uint64_t>(count));
   inputs.add(limits.tolerance).add(static_cast<std::int64_t>(limits.cells));

@@ -127,6 +127,16 @@ TEST(ShippedParts, ComeWithFewPiecesOfLittleError) {
   for (const Part& part : parts) expect_within_bounds(part, collision_shape(part).pieces_P);
 }
 
+TEST(ShippedParts, ABallIsOnePieceWithinTheSameBounds) {
+  for (const double radius : {0.002, 0.02}) {
+    const TriangleMesh ball = mesh_of(Primitive::sphere(radius), 96);
+    const std::vector<TriangleMesh> pieces = convex_decomposition(ball);
+    ASSERT_EQ(pieces.size(), 1u);
+    EXPECT_LE(pieces[0].vertices.size(), 128u);
+    EXPECT_LT(shape_error(ball, pieces).volume_error(), 0.05) << radius;
+  }
+}
+
 TEST(ShippedParts, WithoutTheirPiecesAreDecomposedWithinTheSameBounds) {
   for (const Part& part : shipped_parts()) expect_within_bounds(part, convex_decomposition(part.envelope_P));
 }
