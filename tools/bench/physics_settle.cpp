@@ -1,5 +1,6 @@
 #include "tools/bench/physics_settle.hpp"
 
+#include "core/error.hpp"
 #include "core/part.hpp"
 #include "sim/bare_bullet.hpp"
 #include "sim/bin.hpp"
@@ -11,6 +12,7 @@ namespace binpick {
 
 SettleCost bench_settle(const std::string& scene, int parts, std::uint64_t seed) {
   const Scenario s = read_scenario(scene, {"ideal"});
+  if (s.drop.kind != "rain") throw SpecError(scene + ": drop.kind: bare Bullet can only follow rain");
   const Part part = load_part(s.parts.front().spec);
   const CollisionShape shape = collision_shape(part);
   World world(s.physics);

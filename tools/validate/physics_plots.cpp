@@ -16,15 +16,16 @@ double number_after(const std::string& text, const std::string& words) {
 
 std::string plot_cuboids(const std::vector<Verdict>& lines, const std::string& folder) {
   CurveTable table("curve,ratio,share,low,high");
-  for (const Verdict& line : lines) {
-    const double ratio = number_after(line.what, "cuboid x/y ");
-    if (std::isnan(ratio)) continue;
-    table.add(line.id == "V-E3" ? "thrown" : "laid down", {ratio, line.value, line.low, line.high});
-    if (line.id != "V-E3") continue;
-    const double theory = 2 / std::numbers::pi * std::asin(1 / (1 + ratio * ratio));
-    table.add("quasi-static theory", {ratio, theory, NAN, NAN});
-    table.add("steel dice", {ratio, 2 * line.expected - theory, NAN, NAN});
-  }
+  const auto ratio_of = [](const Verdict& line) { return number_after(line.what, "cuboid x/y "); };
+  const auto theory = [](double ratio) { return 2 / std::numbers::pi * std::asin(1 / (1 + ratio * ratio)); };
+  for (const Verdict& line : lines)
+    if (!std::isnan(ratio_of(line)))
+      table.add(line.id == "V-E3" ? "thrown" : "laid down", {ratio_of(line), line.value, line.low, line.high});
+  for (double ratio = 0.3; ratio < 2.81; ratio += 0.05)
+    table.add("quasi-static theory", {ratio, theory(ratio), NAN, NAN});
+  for (const Verdict& line : lines)  // between theory and dice: the middle is expected
+    if (line.id == "V-E3" && !std::isnan(ratio_of(line)))
+      table.add("steel dice", {ratio_of(line), 2 * line.expected - theory(ratio_of(line)), NAN, NAN});
   write_plot(folder, "cuboids", table, R"gp(
 set title "Cuboids with square ends (V-E2, V-E3): share that comes to rest on a square end"
 set xlabel "length over edge of the square, x / y"
