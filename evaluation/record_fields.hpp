@@ -71,6 +71,11 @@ void trial_fields(Archive& archive, Record& record) {
   archive("settled", record.settled);
   archive("settle_time", record.settle_time);
   archive("worst_penetration", record.worst_penetration);
+  archive("penetration_p99", record.penetration_p99);
+  archive("penetration_max", record.penetration_max);
+  archive("woken_energy", record.woken_energy);
+  archive("woken_motion", record.woken_motion);
+  archive("woken_share", record.woken_share);
   archive.hash("drop_hash", record.drop_hash);
   archive("error", record.error);
   archive.list("picks", record.picks, [](auto& inner, auto& pick) { pick_fields(inner, pick); });

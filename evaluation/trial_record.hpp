@@ -15,7 +15,7 @@
 
 namespace binpick {
 
-inline constexpr int kRecordSchema = 2;
+inline constexpr int kRecordSchema = 3;
 
 struct PickRecord {
   PickOutcome outcome = PickOutcome::kNoDetection;
@@ -55,7 +55,12 @@ struct TrialRecord {
   int escaped = 0;                           ///< parts outside the bin before the first pick
   bool settled = true;
   double settle_time = 0;                    ///< s simulated until the heap was at rest
-  double worst_penetration = 0;              ///< m, deepest contact at rest
+  double worst_penetration = 0;              ///< m, deepest contact at rest, of what collides
+  double penetration_p99 = 0;                ///< m, of true solids, over the pairs that press on each other; at rest
+  double penetration_max = 0;                ///< m
+  double woken_energy = 0;                   ///< J, largest of a part at the end of the time it was kept awake
+  double woken_motion = 0;                   ///< m, largest of a part in that time
+  double woken_share = 0;                    ///< of the parts that moved more than 0.1 mm in it
   std::uint64_t drop_hash = 0;
   std::vector<PickRecord> picks;
   std::string error;                         ///< text of an InternalError

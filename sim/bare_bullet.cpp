@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/check.hpp"
+#include "sim/heap_dynamics.hpp"
 #include "sim/world_impl.hpp"
 
 namespace binpick {
@@ -56,7 +57,7 @@ struct BareBullet::Impl : World::Impl::Observer {
 
   Impl(World::Impl& observed, std::function<double()> cpu)
       : ours(observed), cpu_now(std::move(cpu)), dispatcher(&configuration) {
-    world = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher, &broadphase, &solver, &configuration);
+    world = std::make_unique<HeapDynamics>(&dispatcher, &broadphase, &solver, &configuration);
     dispatcher.setDispatcherFlags(ours.dispatcher->getDispatcherFlags());
     world->setGravity(ours.world->getGravity());
     world->getDispatchInfo().m_deterministicOverlappingPairs =
@@ -89,9 +90,10 @@ struct BareBullet::Impl : World::Impl::Observer {
     twin.present = false;
   }
 
-  void before_step(double dt) override {
+  void before_step(double dt, int iterations) override {
     const Pause pause(*this);
     follow();
+    world->getSolverInfo().m_numIterations = iterations;
     length = dt;
     if (report.steps % 2 == 0) step();
   }
@@ -145,7 +147,9 @@ struct BareBullet::Impl : World::Impl::Observer {
     info.m_spinningFriction = rigid.getSpinningFriction();
     info.m_linearSleepingThreshold = rigid.getLinearSleepingThreshold();
     info.m_angularSleepingThreshold = rigid.getAngularSleepingThreshold();
-    return std::make_unique<btRigidBody>(info);
+    auto twin = std::make_unique<btRigidBody>(info);
+    twin->setUserIndex(rigid.getUserIndex());
+    return twin;
   }
 
   btCompoundShape* compound_of(const World::Impl::Geometry& geometry) {

@@ -1,7 +1,8 @@
 // The heap of a World once more in bare Bullet: the same hulls, margins, masses and settings, the same bodies released
-// at the same steps with the same states, stepped by a plain btDiscreteDynamicsWorld with nothing of ours around it.
-// For benches: what does our World cost on top? Both worlds take their steps in turn, so that a busy machine slows
-// both. It lives here and not beside the bench because only sim may see Bullet and what is inside a World.
+// at the same steps with the same states, stepped by a btDiscreteDynamicsWorld with nothing of ours around it but
+// rolling friction once a pair (heap_dynamics.hpp), without which it would be another heap. For benches: what does our
+// World cost on top? Both worlds take their steps in turn, so that a busy machine slows both. It lives here and not
+// beside the bench because only sim may see Bullet and what is inside a World.
 #pragma once
 
 #include <cstddef>

@@ -131,11 +131,21 @@ DropResult drop_parts(World& world, std::span<const DropItem> items, const BinSp
   result.settle_time = first.time + second.time;
   result.damped = first.damped || second.damped;
   result.worst_penetration = world.deepest_contact();
-  result.settled = first.at_rest && second.at_rest && result.worst_penetration <= settle_config.max_penetration;
-  for (std::size_t k = 0; k < result.bodies.size(); ++k)
-    if (!inside_bin(bin, X_WB, world.mass_center(result.bodies[k]), items[k].part->diameter))
-      result.escaped.push_back(k);
+  if (!first.at_rest || !second.at_rest)
+    result.unsettled = "the heap was not at rest within the time limit";
+  else if (result.worst_penetration > settle_config.max_penetration)
+    result.unsettled = "parts penetrate each other";
+  result.settled = result.unsettled.empty();
+  for (const DropItem& item : items) result.diameters.push_back(item.part->diameter);
+  result.escaped = escaped(world, bin, X_WB, result);
   return result;
+}
+
+std::vector<std::size_t> escaped(const World& world, const BinSpec& bin, const Pose& X_WB, const DropResult& drop) {
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < drop.bodies.size(); ++k)
+    if (!inside_bin(bin, X_WB, world.mass_center(drop.bodies[k]), drop.diameters[k])) indices.push_back(k);
+  return indices;
 }
 
 }  // namespace binpick

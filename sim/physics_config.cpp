@@ -17,7 +17,9 @@ void PhysicsConfig::visit(ConfigVisitor& v) {
   v.field("fine_step", fine_step, Unit::kTime, "step while any awake part is fast");
   v.field("coarse_step", coarse_step, Unit::kTime, "step while no awake part is fast");
   v.field("fast_speed", fast_speed, Unit::kSpeed, "|v| + |w| R above which a part is fast");
-  v.field("iterations", iterations, "iterations of the contact solver");
+  v.field("fine_iterations", fine_iterations, "iterations of the contact solver in a fine step");
+  v.field("coarse_iterations", coarse_iterations, "iterations of the contact solver in a coarse step");
+  v.field("iterations", iterations, "iterations of the contact solver in lockstep with the arm");
   v.field("margin", margin, Unit::kLength, "collision margin; faces are inset by it, so only edges are rounded");
   v.field("contact_threshold", contact_threshold, Unit::kLength,
           "distance at which contacts are made ahead of touching");
@@ -32,6 +34,8 @@ void PhysicsConfig::validate() const {
   require(fine_step >= 1e-5 && fine_step <= coarse_step, "physics.fine_step: must lie between 0.01 ms and coarse_step");
   require(coarse_step <= 1.0 / 60, "physics.coarse_step: must be at most 1/60 s");
   require(fast_speed > 0, "physics.fast_speed: must be above 0");
+  require(fine_iterations >= 1 && fine_iterations <= 1000, "physics.fine_iterations: must lie between 1 and 1000");
+  require(coarse_iterations >= 1 && coarse_iterations <= 1000, "physics.coarse_iterations: must lie between 1 and 1000");
   require(iterations >= 1 && iterations <= 1000, "physics.iterations: must lie between 1 and 1000");
   require(margin >= 1e-5 && margin <= 2e-3,
           "physics.margin: must lie between 0.01 and 2 mm (a zero margin never rests)");
@@ -72,12 +76,16 @@ void SettleConfig::visit(ConfigVisitor& v) {
   v.field("motion", motion, Unit::kLength, "largest displacement (and R x rotation) of a part at rest, in two windows");
   v.field("window", window, Unit::kTime, "length of the two windows");
   v.field("max_penetration", max_penetration, Unit::kLength, "a deeper contact at rest rejects the heap");
+  v.field("wake_time", wake_time, Unit::kTime, "so long the heap at rest is kept awake and watched; 0: it is believed");
+  v.field("wake_motion", wake_motion, Unit::kLength, "a part that moves more in that time rejects the heap");
 }
 
 void SettleConfig::validate() const {
   require(time_limit > 0 && time_limit <= 600, "settle.time_limit: must lie between 0 and 600 s");
   require(motion > 0 && motion <= 0.01, "settle.motion: must lie between 0 and 10 mm");
   require(window >= 0.05 && window <= 5, "settle.window: must lie between 50 ms and 5 s");
+  require(wake_time >= 0 && wake_time <= 60, "settle.wake_time: must lie between 0 and 60 s");
+  require(wake_motion > 0 && wake_motion <= 0.1, "settle.wake_motion: must lie between 0 and 100 mm");
   require(max_penetration > 0 && max_penetration <= 0.05, "settle.max_penetration: must lie between 0 and 50 mm");
 }
 

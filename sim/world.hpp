@@ -19,11 +19,13 @@ namespace binpick {
 
 /// Settings of reference bullet_settings.md, each with its reason in world.cpp.
 struct PhysicsConfig {
-  double gravity = 9.81;           ///< m/s^2
-  double fine_step = 1.0 / 1000;   ///< s, while any awake part is fast
-  double coarse_step = 1.0 / 240;  ///< s
-  double fast_speed = 0.3;         ///< m/s: |v| + |w| R above which a part is fast
-  int iterations = 50;
+  double gravity = 9.81;             ///< m/s^2
+  double fine_step = 1.0 / 1000;     ///< s, while any awake part is fast
+  double coarse_step = 1.0 / 240;    ///< s
+  double fast_speed = 0.3;           ///< m/s: |v| + |w| R above which a part is fast
+  int fine_iterations = 15;          ///< of the contact solver, in a fine step
+  int coarse_iterations = 250;       ///< in a coarse step
+  int iterations = 50;               ///< in a step of a stated length: in lockstep with the arm
   double margin = 0.2e-3;            ///< m, collision margin, planes inset by it
   double contact_threshold = 2e-3;   ///< m
   double rolling_friction = 0.1e-3;  ///< m, lever arm on parts
@@ -90,8 +92,11 @@ class World {
   Pose pose(BodyId body) const;                         ///< X_WO or X_WP
   Eigen::Vector3d velocity(BodyId body) const;          ///< m/s, of the mass centre
   Eigen::Vector3d angular_velocity(BodyId body) const;  ///< rad/s, in W
+  double kinetic_energy(BodyId body) const;             ///< J, of a free body
   void wake(BodyId body);
   bool awake(BodyId body) const;
+  /// Awake from now on, or free to fall asleep again.
+  void set_may_sleep(BodyId body, bool may);
   double deepest_contact() const;  ///< m, deepest penetration among current contacts, >= 0
   /// Contacts of a body now: the other body, normal force (N, mean over the last step) and depth (m).
   struct BodyContact {

@@ -55,7 +55,7 @@ struct World::Impl {
     virtual ~Observer() = default;
     virtual void joined(const Body& body) = 0;
     virtual void left(const Body& body) = 0;
-    virtual void before_step(double dt) = 0;
+    virtual void before_step(double dt, int iterations) = 0;
     virtual void after_step() = 0;
   };
 
@@ -69,7 +69,7 @@ struct World::Impl {
   Body& at(BodyId body);
   const Body& at(BodyId body) const;
   void join_world(Body& body);
-  void advance(double dt);
+  void advance(double dt, int iterations);
   void aim_moved_bodies();
   void land_moved_bodies();
 

@@ -107,6 +107,19 @@ void World::wake(BodyId body) {
   impl_->thaw(impl_->at(body));
   impl_->at(body).rigid->activate(true);
 }
+void World::set_may_sleep(BodyId body, bool may) {
+  impl_->thaw(impl_->at(body));
+  impl_->at(body).rigid->forceActivationState(may ? ACTIVE_TAG : DISABLE_DEACTIVATION);
+  impl_->at(body).rigid->setDeactivationTime(0);
+}
+
+double World::kinetic_energy(BodyId body) const {
+  const btRigidBody& rigid = *impl_->at(body).rigid;
+  if (rigid.getInvMass() == 0) return 0;
+  const btVector3 w_M = rigid.getWorldTransform().getBasis().transpose() * rigid.getAngularVelocity();
+  return (rigid.getLinearVelocity().length2() / rigid.getInvMass() + (w_M * w_M).dot(rigid.getLocalInertia())) / 2;
+}
+
 bool World::awake(BodyId body) const { return impl_->at(body).rigid->isActive(); }
 
 double World::deepest_contact() const {

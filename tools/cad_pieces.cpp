@@ -69,8 +69,8 @@ TriangleMesh ring_envelope(double inner, double outer, double width, int facets)
 }
 
 std::vector<TriangleMesh> ring_wedges(double inner, double outer, double width) {
-  constexpr int kWedges = 8;
-  constexpr int kFacets = 3;
+  constexpr int kWedges = 12;
+  constexpr int kFacets = 2;
   const double inner_radius = polygon_radius(inner, kWedges);
   const double outer_radius = polygon_radius(outer, kWedges * kFacets);
   const double step = 2 * std::numbers::pi / (kWedges * kFacets);

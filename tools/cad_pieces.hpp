@@ -11,7 +11,7 @@ namespace binpick {
 /// Closed ring of rectangular section about z, `facets` sides, its volume exactly that of the round ring.
 TriangleMesh ring_envelope(double inner, double outer, double width, int facets);
 
-/// The ring as eight wedges with three outer facets each: a 24-gon outside, an 8-gon as hole.
+/// The ring as twelve wedges with two outer facets each: a 24-gon outside, a 12-gon as hole.
 std::vector<TriangleMesh> ring_wedges(double inner, double outer, double width);
 
 std::vector<TriangleMesh> bearing_pieces();

@@ -82,7 +82,7 @@ void make_bearing(const std::string& folder) {
       {"# Sealed ball bearing 6914: bore 70, outside 100, width 16 mm. Axis z, origin in the centre. Rings and seals\n"
        "# close it on every side; the balls and the cage inside are drawn, but no camera sees them.\n"
        "# The envelope's 64.09 cm^3 of aluminium weigh 0.173 kg.\n",
-       "envelope: envelope.stl      # ring of rectangular section, volume true\n", "eight wedges",
+       "envelope: envelope.stl      # ring of rectangular section, volume true\n", "twelve wedges",
        "  type: revolution\n"
        "  axis: [0, 0, 1]\n"
        "  flip: true                # both faces are alike\n"});

@@ -6,14 +6,6 @@
 namespace binpick {
 namespace {
 
-std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
-  std::vector<DropItem> items;
-  for (std::size_t p = 0; p < s.parts.size(); ++p)
-    for (int k = 0; k < context.counts[p]; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
-  seed.child("order").rng().shuffle(items);
-  return items;
-}
-
 // What was true when the frames were taken; instances in the tray or on the table are not part of the question. An
 // instance counts as visible as it is to the camera that sees it best.
 GroundTruth truth_of(const CellWorld& cell_world, const std::vector<Capture>& captures, const Pose& X_WC) {
@@ -41,10 +33,19 @@ std::uint64_t hash_of(const std::vector<DepthFrame>& frames) {
 
 }  // namespace
 
+std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
+  std::vector<DropItem> items;
+  for (std::size_t p = 0; p < s.parts.size(); ++p)
+    for (int k = 0; k < context.counts[p]; ++k) items.push_back({&context.parts[p], &context.shapes[p], p});
+  seed.child("order").rng().shuffle(items);
+  return items;
+}
+
 DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_seed, CellWorld& cell_world) {
   const Seed seed = trial_seed.child("drop");
-  const DropResult heap =
+  DropResult heap =
       drop_parts(cell_world.world(), drop_order(s, context, seed), s.cell.bin, s.cell.X_WB, s.drop, s.settle, seed);
+  check_rest(cell_world.world(), s.cell.bin, s.cell.X_WB, context.probes, s.settle, heap);
   cell_world.set_heap(heap);
   return heap;
 }

@@ -21,6 +21,9 @@ struct Observation {
   std::uint64_t frame_hash = 0;   ///< of all of them
 };
 
+/// The scenario's parts in the order in which they are dropped; `seed`: the trial's "drop".
+std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed);
+
 /// Drops the scenario's parts for the trial's seed and lets the arm come to the look pose.
 DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_seed, CellWorld& cell_world);
 

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "evaluation/statistics.hpp"
 #include "trials/observation.hpp"
 
 namespace binpick {
@@ -154,6 +155,13 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   record.settled = heap.settled;
   record.settle_time = heap.settle_time;
   record.worst_penetration = heap.worst_penetration;
+  if (!heap.penetrations.empty()) {
+    record.penetration_p99 = quantile(heap.penetrations, 0.99);
+    record.penetration_max = quantile(heap.penetrations, 1);
+  }
+  record.woken_energy = heap.woken.energy;
+  record.woken_motion = heap.woken.largest_motion;
+  record.woken_share = heap.woken.moved_share;
   record.drop_hash = cell_world.world().state_hash();
   if (heap.settled && heap.escaped.empty()) {
     Run run_state{s, cell_world, context, seed, pictures, {}};
@@ -163,7 +171,7 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   PickRecord unsettled;
   unsettled.outcome = PickOutcome::kUnsettled;
   unsettled.reason = heap.settled ? std::to_string(heap.escaped.size()) + " parts fell outside the bin"
-                                  : "the heap was not at rest within the time limit";
+                                  : heap.unsettled;
   unsettled.world_hash = record.drop_hash;
   record.picks.push_back(unsettled);
 }

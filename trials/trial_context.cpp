@@ -23,6 +23,8 @@ void check_fits(const Part& part, const BinSpec& bin, const std::string& scene_f
                     format_double(extent[2]) + " x " + format_double(extent[1]) + " m)");
 }
 
+}  // namespace
+
 // As the scene says; or, with a fill level, in the scene's proportions so many that they fill the bin to it.
 std::vector<int> dropped_counts(const Scenario& scenario, const std::vector<Part>& parts) {
   std::vector<int> counts;
@@ -44,14 +46,13 @@ std::vector<int> dropped_counts(const Scenario& scenario, const std::vector<Part
   return counts;
 }
 
-}  // namespace
-
 TrialContext make_trial_context(Scenario& scenario) {
   TrialContext context;
   for (const PartEntry& entry : scenario.parts) {
     context.parts.push_back(load_part(entry.spec));
     check_fits(context.parts.back(), scenario.cell.bin, scenario.file);
     context.shapes.push_back(collision_shape(context.parts.back()));
+    context.probes.push_back(probe_of(context.parts.back()));
   }
   context.counts = dropped_counts(scenario, context.parts);
   context.hash = scenario_hash(scenario);

@@ -39,7 +39,7 @@ TEST(BareBullet, FollowsADropToTheLastBit) {
 TEST(BareBullet, NoticesAnotherSetting) {
   World world{PhysicsConfig{}};
   const BareBullet bare(world, [] { return 0.0; });
-  world.impl().world->getSolverInfo().m_numIterations = 49;  // after the bare world took the settings over
+  world.impl().world->getSolverInfo().m_warmstartingFactor = 0.8;  // after the bare world took the settings over
   drop(world, BinSpec{});
   EXPECT_GT(bare.report().different, 0u);
 }

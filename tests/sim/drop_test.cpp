@@ -3,7 +3,7 @@
 
 #include "example_parts.hpp"
 #include "sim/bin.hpp"
-#include "sim/drop.hpp"
+#include "sim/rest_check.hpp"
 
 namespace binpick {
 namespace {
@@ -14,14 +14,17 @@ struct Heap {
   std::vector<Pose> poses;
 };
 
-Heap dropped(const Part& part, int count, Seed seed, const BinSpec& bin = {}, const DropConfig& drop = {}) {
+Heap dropped(const Part& part, int count, Seed seed, const BinSpec& bin = {}, const DropConfig& drop = {},
+             const SettleConfig& settle = {}) {
   const CollisionShape shape = collision_shape(part);
   World world{PhysicsConfig{}};
   const Pose X_WB(Eigen::Translation3d(0.5, 0.1, 0.02));
   add_bin(world, bin, X_WB);
   const std::vector<DropItem> items(static_cast<std::size_t>(count), {&part, &shape, 0});
   Heap heap;
-  heap.result = drop_parts(world, items, bin, X_WB, drop, SettleConfig{}, seed);
+  heap.result = drop_parts(world, items, bin, X_WB, drop, settle, seed);
+  const SolidProbe probe = probe_of(part);
+  check_rest(world, bin, X_WB, std::span(&probe, 1), settle, heap.result);
   heap.hash = world.state_hash();
   for (const BodyId body : heap.result.bodies) heap.poses.push_back(world.pose(body));
   return heap;
@@ -33,8 +36,29 @@ TEST(Drop, TenRingsComeToRestInsideTheBin) {
     EXPECT_TRUE(heap.result.settled) << "seed " << seed;
     EXPECT_TRUE(heap.result.escaped.empty()) << "seed " << seed;
     EXPECT_LT(heap.result.worst_penetration, 1e-3) << "seed " << seed;
+    EXPECT_LT(heap.result.woken.largest_motion, 1e-3) << "seed " << seed;
+    EXPECT_LT(heap.result.woken.energy, 1e-6) << "seed " << seed;
     for (const Pose& X_WP : heap.poses) EXPECT_GT(X_WP.translation().z(), 0.02 + 0.0075) << "seed " << seed;
   }
+}
+
+TEST(Drop, AHeapThatMovesOnWhenWokenIsNotSettledAndSaysSo) {
+  SettleConfig strict;
+  strict.wake_motion = 1e-9;  // no solver rests so still
+  const Heap heap = dropped(example::ring(), 6, Seed{77}, {}, {}, strict);
+  EXPECT_FALSE(heap.result.settled);
+  EXPECT_NE(heap.result.unsettled.find("woken"), std::string::npos) << heap.result.unsettled;
+}
+
+TEST(Drop, LookingAtAHeapDoesNotMoveIt) {
+  SettleConfig believed;
+  believed.wake_time = 0;
+  const Heap watched = dropped(example::ring(), 6, Seed{77}),
+             unseen = dropped(example::ring(), 6, Seed{77}, {}, {}, believed);
+  ASSERT_TRUE(watched.result.settled && unseen.result.settled);
+  EXPECT_GT(watched.result.woken.largest_motion, 0);
+  EXPECT_EQ(unseen.result.woken.largest_motion, 0);
+  EXPECT_EQ(watched.hash, unseen.hash);
 }
 
 TEST(Drop, SameSeedGivesTheSameBits) {
@@ -68,7 +92,8 @@ TEST(Drop, AReleasedPartDoesNotDependOnThoseAfterIt) {
 TEST(Drop, OverfullBinIsAnOutcome) {
   BinSpec tiny;
   tiny.inner_size = {0.12, 0.12, 0.03};
-  const Heap heap = dropped(example::ring(), 8, Seed{3}, tiny);
+  const Heap heap =
+      dropped(example::ring(), 16, Seed{3}, tiny);  // stacked, they would reach twice its rim and a diameter
   EXPECT_FALSE(heap.result.settled && heap.result.escaped.empty());
 }
 

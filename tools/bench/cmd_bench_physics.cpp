@@ -63,11 +63,11 @@ void print_heaps(const std::vector<SettleCost>& costs) {
     penetration = std::max(penetration, c.penetration);
   }
   std::printf(
-      "%-14s %3d parts of %2zu pieces, %d iterations, %zu heaps: CPU s %.3f (%.3f-%.3f) for %.2f s; steps/s "
+      "%-14s %3d parts of %2zu pieces, %d and %d iterations, %zu heaps: CPU s %.3f (%.3f-%.3f) for %.2f s; steps/s "
       "%.0f, bare %.0f; x real time %.2f, bare %.2f; ours/bare %.3f (%.3f-%.3f), ",
-      first.scene.c_str(), first.parts, first.pieces, first.iterations, costs.size(), cpu.median, cpu.low, cpu.high,
-      simulated.median, rate.median, bare.median, ours_real.median, bare_real.median, ratio.median, ratio.low,
-      ratio.high);
+      first.scene.c_str(), first.parts, first.pieces, first.fine_iterations, first.coarse_iterations, costs.size(),
+      cpu.median, cpu.low, cpu.high, simulated.median, rate.median, bare.median, ours_real.median, bare_real.median,
+      ratio.median, ratio.low, ratio.high);
   if (different > 0)
     std::printf("bits DIFFER in %zu; ", different);
   else
@@ -97,7 +97,8 @@ nlohmann::ordered_json json_of(const std::vector<SettleCost>& heaps, const std::
     json["heaps"].push_back({{"scene", c.scene},
                              {"parts", c.parts},
                              {"pieces", c.pieces},
-                             {"iterations", c.iterations},
+                             {"fine_iterations", c.fine_iterations},
+                             {"coarse_iterations", c.coarse_iterations},
                              {"seed", c.seed},
                              {"cpu_s", c.cpu},
                              {"bare_cpu_s", c.bare_cpu},

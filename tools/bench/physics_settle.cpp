@@ -29,7 +29,8 @@ SettleCost bench_settle(const std::string& scene, int parts, std::uint64_t seed)
   cost.scene = s.name;
   cost.seed = seed;
   cost.parts = parts;
-  cost.iterations = s.physics.iterations;
+  cost.fine_iterations = s.physics.fine_iterations;
+  cost.coarse_iterations = s.physics.coarse_iterations;
   cost.pieces = shape.pieces_P.size();
   cost.simulated = world.time();
   cost.settled = heap.settled;

@@ -10,7 +10,7 @@ namespace binpick {
 struct SettleCost {
   std::string scene;
   std::uint64_t seed = 0;
-  int parts = 0, iterations = 0;
+  int parts = 0, fine_iterations = 0, coarse_iterations = 0;
   std::size_t pieces = 0;  ///< of the first part
   double cpu = 0;          ///< s of one core
   double simulated = 0;    ///< s, release of the parts included
