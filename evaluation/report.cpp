@@ -80,6 +80,13 @@ std::vector<Row> with_head(const Row& head, std::vector<Row> rows) {
   return rows;
 }
 
+std::string heap_line(const CampaignSummary& s) {
+  return "heaps at rest inside the bin: " + std::to_string(s.heaps.settled) + " of " + std::to_string(s.trials) +
+         "; kept awake, " + fixed(100 * s.heaps.moved_share, 1) + " % of their parts moved more than 0.1 mm, at most " +
+         fixed(1e3 * s.heaps.largest_motion, 2) + " mm; their true solids enter each other by at most " +
+         fixed(1e3 * s.heaps.penetration_max, 2) + " mm";
+}
+
 std::string cycle_line(const CampaignSummary& s) {
   return "cycle " + fixed(s.cycle_median, 2) +
          " s simulated (motion, vacuum, exposure): " + fixed(s.simulated_picks_per_hour, 0) +
@@ -94,8 +101,8 @@ std::string terminal_table(const CampaignSummary& s) {
          plain_table(with_head({"", "count", "rate", "95 %", "paper"}, rate_rows(s))) + "\n" +
          plain_table(with_head({"right poses: " + std::to_string(s.measured), "ours", "paper"}, error_rows(s))) + "\n" +
          plain_table(with_head({"stage, ms", "mean", "median", "p95", "paper"}, stage_rows(s))) + "\n" +
-         plain_table(with_head({"outcome", "picks", "", "seeds"}, outcome_rows(s))) + "\n  " + cycle_line(s) +
-         "\n  records " + s.records_hash + "\n";
+         plain_table(with_head({"outcome", "picks", "", "seeds"}, outcome_rows(s))) + "\n  " + heap_line(s) + "\n  " +
+         cycle_line(s) + "\n  records " + s.records_hash + "\n";
 }
 
 std::string markdown_report(const CampaignSummary& s) {
@@ -110,7 +117,7 @@ std::string markdown_report(const CampaignSummary& s) {
       "## Times in ms (paper: Table 4)\n\n" +
       markdown_table({"stage", "mean", "median", "95 %", "paper"}, stage_rows(s)) +
       "Vision and planning are wall times on this machine, robot motion is simulated time.\n\n" +
-      text::markdown(cycle_line(s)) + ".\n\n## Outcomes\n\n" +
+      text::markdown(cycle_line(s)) + "; " + text::markdown(heap_line(s)) + ".\n\n## Outcomes\n\n" +
       markdown_table({"outcome", "picks", "meaning", "seeds"}, outcome_rows(s)) +
       "Any seed again: `binpick trial scenario.yaml --seed N` in the run folder.\n\n"
       "## The paper's own slips\n\n";

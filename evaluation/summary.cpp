@@ -165,6 +165,24 @@ std::string records_hash(const Records& sorted) {
   return hex(hasher.value());
 }
 
+// Of settled heaps: the others are not picked from.
+HeapSummary heap_summary(const Records& records) {
+  HeapSummary heaps;
+  std::vector<double> shares, depths;
+  for (const TrialRecord* record : records) {
+    if (!record->settled || record->escaped > 0) continue;
+    ++heaps.settled;
+    shares.push_back(record->woken_share);
+    depths.push_back(record->penetration_p99);
+    heaps.largest_motion = std::max(heaps.largest_motion, record->woken_motion);
+    heaps.penetration_max = std::max(heaps.penetration_max, record->penetration_max);
+  }
+  if (shares.empty()) return heaps;
+  heaps.moved_share = mean(shares);
+  heaps.penetration_p99 = quantile(depths, 0.95);
+  return heaps;
+}
+
 }  // namespace
 
 CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_wall_seconds) {
@@ -177,6 +195,7 @@ CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_
   add_stages(sorted, summary);
   add_cycle(sorted, campaign_wall_seconds, summary);
   add_outcomes(sorted, summary);
+  summary.heaps = heap_summary(sorted);
   summary.records_hash = records_hash(sorted);
   return summary;
 }

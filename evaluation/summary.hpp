@@ -28,6 +28,15 @@ struct StageSummary {
   double mean = 0;    ///< s
 };
 
+/// The heaps before the first pick: what stands behind every other figure.
+struct HeapSummary {
+  std::size_t settled = 0;     ///< at rest, with every part inside the bin
+  double moved_share = 0;      ///< of their parts, those that moved more than 0.1 mm when they were kept awake
+  double largest_motion = 0;   ///< m, of such a part
+  double penetration_p99 = 0;  ///< m, of true solids: 95 % of these heaps have a smaller p99
+  double penetration_max = 0;  ///< m
+};
+
 struct CampaignSummary {
   std::string scenario;
   std::size_t trials = 0;
@@ -42,6 +51,7 @@ struct CampaignSummary {
   double translation_median = 0, translation_p95 = 0;  ///< m
   double rotation_median = 0, rotation_p95 = 0;        ///< rad
   Eigen::Vector3d mean_abs_xyz = Eigen::Vector3d::Zero(), mean_abs_rpy = Eigen::Vector3d::Zero();
+  HeapSummary heaps;
   double cycle_median = 0;  ///< s simulated, succeeded picks
   double motion_mean = 0;   ///< s simulated, succeeded picks (paper's "moving robot")
   double simulated_picks_per_hour = 0, throughput_per_hour = 0;  ///< 0: unknown

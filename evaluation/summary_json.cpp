@@ -61,6 +61,11 @@ std::string summary_json(const CampaignSummary& s) {
       {"median", s.rotation_median}, {"p95", s.rotation_p95}, {"mean_abs_rpy", vector_json(s.mean_abs_rpy)}};
   json["errors_of"] = s.measured;
   json["stage_ms"] = stages_json(s.stages);
+  json["heaps"] = {{"settled", s.heaps.settled},
+                   {"moved_share", s.heaps.moved_share},
+                   {"largest_motion_m", s.heaps.largest_motion},
+                   {"penetration_p99_m", s.heaps.penetration_p99},
+                   {"penetration_max_m", s.heaps.penetration_max}};
   json["cycle_s"] = {{"median", s.cycle_median}, {"motion_mean", s.motion_mean}};
   json["simulated_picks_per_hour"] = s.simulated_picks_per_hour;
   json["throughput_per_hour"] = s.throughput_per_hour;

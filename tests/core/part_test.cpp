@@ -66,7 +66,7 @@ TEST(OwnParts, BearingHasTheVolumeAndMassOfItsRing) {
   EXPECT_NEAR(part.diameter, std::hypot(0.1, 2 * 0.0074), 1e-4);  // the chamfer takes 0.6 mm from each rim
   EXPECT_TRUE(part.symmetry.axis.has_value());
   EXPECT_EQ(part.symmetry.finite.size(), 2u);
-  EXPECT_EQ(part.pieces_P.size(), 8u);
+  EXPECT_EQ(part.pieces_P.size(), 12u);
 }
 
 TEST(OwnParts, BearingIsARingFromOutside) {

@@ -55,6 +55,11 @@ inline TrialRecord trial(std::uint64_t seed, std::vector<PickRecord> picks, int 
   for (const PickRecord& p : record.picks) record.placed += p.outcome == PickOutcome::kSucceeded ? 1 : 0;
   record.settle_time = 1.5;
   record.worst_penetration = 0.0001;
+  record.penetration_p99 = 0.0002;
+  record.penetration_max = 0.0003;
+  record.woken_energy = 1e-9;
+  record.woken_motion = 0.0004;
+  record.woken_share = 0.1;
   record.drop_hash = 3;
   record.wall_total = 12.5;
   return record;

@@ -119,8 +119,11 @@ TEST(Summary, RecordsHashKnowsNoWallTime) {
 
 TEST(SummaryJson, HasTheKeysThatScriptsRelyOn) {
   const json s = json::parse(summary_json(summarise(three_piles(), 3600)));
-  EXPECT_EQ(s["schema"], 2);
+  EXPECT_EQ(s["schema"], 3);
   EXPECT_EQ(s["trials"], 3);
+  EXPECT_EQ(s["heaps"]["settled"], 3);
+  EXPECT_EQ(s["heaps"]["largest_motion_m"], 0.0004);
+  EXPECT_EQ(s["heaps"]["penetration_max_m"], 0.0003);
   EXPECT_EQ(s["cleared"]["placed"], 19);
   EXPECT_EQ(s["cleared"]["dropped"], 30);
   EXPECT_EQ(s["picks"]["attempted"], 23);

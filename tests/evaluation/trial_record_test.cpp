@@ -61,6 +61,11 @@ TEST(TrialRecord, EveryFieldComesBack) {
   const TrialRecord back = trial_record_from_json(to_json_line(record), "line");
   EXPECT_EQ(back.scenario, "bearing_bin");
   EXPECT_EQ(back.dropped, 10);
+  EXPECT_EQ(back.penetration_p99, 0.0002);
+  EXPECT_EQ(back.penetration_max, 0.0003);
+  EXPECT_EQ(back.woken_energy, 1e-9);
+  EXPECT_EQ(back.woken_motion, 0.0004);
+  EXPECT_EQ(back.woken_share, 0.1);
   EXPECT_EQ(back.placed, 1);
   ASSERT_EQ(back.picks.size(), 2u);
   EXPECT_EQ(back.picks[0].outcome, PickOutcome::kSucceeded);
@@ -138,7 +143,7 @@ TEST(TrialRecord, BadLinesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal(""), place + "is not a JSON record");
   EXPECT_EQ(refusal(line + "x"), place + "is not a JSON record");
   EXPECT_EQ(refusal("[]").rfind(place, 0), 0u);
-  EXPECT_EQ(refusal(replaced(line, "\"schema\":2", "\"schema\":1")).rfind(place + "schema: 1", 0), 0u);
+  EXPECT_EQ(refusal(replaced(line, "\"schema\":3", "\"schema\":1")).rfind(place + "schema: 1", 0), 0u);
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10,", "")), place + "dropped: is missing");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":\"10\"")), place + "dropped: is not a whole number");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":1e10")), place + "dropped: is not a whole number");
