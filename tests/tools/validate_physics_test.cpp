@@ -50,7 +50,8 @@ constexpr Known kKnownOutside[] = {{"within 1 deg of a face", 0.97, 1},
 
 TEST(ValidatePhysics, TheQuickFormPassesAllButWhatIsKnownToFallOutside) {
   const TemporaryFolder folder;
-  const ProgramRun run = run_program("validate physics --quick --seeds 100:104 --json " + folder.path("v.json"));
+  const ProgramRun run = run_program("validate physics --quick --seeds 100:104 --json " + folder.path("v.json"),
+                                     std::string("cd ") + BINPICK_SOURCE_DIR);
   std::set<std::string> ids;
   bool all = true;
   for (const auto& row : nlohmann::json::parse(read_file(folder.path("v.json")))) {
