@@ -21,13 +21,14 @@ if(BINPICK_WITH_SIM)
   find_library(BINPICK_PCL_REGISTRATION NAMES pcl_registration)
 
   pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
-endif()
 
-if(BINPICK_BUILD_TESTS)
-  find_package(GTest REQUIRED)
   find_path(KDL_INCLUDE_DIR kdl/chain.hpp REQUIRED)
   find_library(KDL_LIBRARY NAMES orocos-kdl REQUIRED)
   add_library(binpick_kdl INTERFACE)
   target_include_directories(binpick_kdl SYSTEM INTERFACE ${KDL_INCLUDE_DIR})
   target_link_libraries(binpick_kdl INTERFACE ${KDL_LIBRARY})
+endif()
+
+if(BINPICK_BUILD_TESTS)
+  find_package(GTest REQUIRED)
 endif()

@@ -1,6 +1,7 @@
 #include "core/mesh_import.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -57,8 +58,14 @@ std::string one_line(const char* text) {
 std::vector<TriangleMesh> import_mesh(const std::string& bytes, const std::string& extension, const std::string& path) {
   Assimp::Importer importer;
   keep_only(importer, extension);
-  const aiScene* scene =
-      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, extension.c_str());
+  unsigned steps = aiProcess_Triangulate;
+  if (extension == "dae") {
+    // A scene with nodes: their poses and the file's unit go into the vertices; the axis that is up is left as it
+    // stands.
+    steps |= aiProcess_PreTransformVertices;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  }
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), steps, extension.c_str());
   if (scene == nullptr) throw AssetError(path + ": cannot be read: " + one_line(importer.GetErrorString()));
   std::vector<TriangleMesh> meshes;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) meshes.push_back(converted(*scene->mMeshes[i], path));

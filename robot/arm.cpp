@@ -1,7 +1,9 @@
 #include "robot/arm.hpp"
 
-#include "core/error.hpp"
+#include <algorithm>
+
 #include "core/random.hpp"
+#include "robot/numeric_ik.hpp"
 #include "robot/opw_geometry.hpp"
 #include "robot/urdf_reader.hpp"
 
@@ -14,10 +16,12 @@ constexpr double kAgreement = 2e-4;
 
 }  // namespace
 
-Arm Arm::load(const std::string& urdf_path) {
-  SerialChain chain = read_urdf_chain(urdf_path);
+Arm Arm::load(const ArmSource& source) {
+  const SerialChain chain = read_urdf_chain(source);
   Arm arm;
   arm.name_ = chain.name;
+  arm.flange_name_ = chain.flange_name;
+  arm.mesh_files_ = chain.mesh_files;
   for (std::size_t i = 0; i < 7; ++i) {
     arm.link_names_.push_back(chain.link_names[i]);
     arm.link_shapes_.push_back(chain.shapes[i]);
@@ -25,19 +29,25 @@ Arm Arm::load(const std::string& urdf_path) {
   for (std::size_t i = 0; i < 6; ++i) arm.joints_[i] = {chain.X_before[i], chain.axes[i]};
   arm.X_6F_ = chain.X_6F;
   arm.limits_ = chain.limits;
-  arm.opw_ = find_opw(chain, urdf_path);
-
-  Rng rng = Seed{}.child("robot/opw").rng();
-  for (int trial = 0; trial < 20; ++trial) {
-    Vector6d q;
-    for (std::size_t i = 0; i < 6; ++i) q[i] = rng.uniform(arm.limits_[i].lower, arm.limits_[i].upper);
-    const Pose X_RF = arm.opw_.X_RO * opw_forward(arm.opw_, to_opw(arm.opw_, q)) * arm.opw_.X_EF;
-    const double error = (X_RF.matrix() - arm.forward(q).matrix()).cwiseAbs().maxCoeff();
-    if (error > kAgreement)
-      throw AssetError(urdf_path + ": the closed-form kinematics miss the URDF's own by " +
-                       std::to_string(error * 1000) + " mm");
-  }
+  arm.numeric_ = std::make_shared<const NumericIk>(chain);
+  arm.find_closed_form(chain);
   return arm;
+}
+
+void Arm::find_closed_form(const SerialChain& chain) {
+  opw_ = find_opw(chain, why_numeric_);
+  if (!opw_) return;
+  const Rng rng = Seed{}.child("robot/opw").rng();
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    Rng draw = rng.at(trial);
+    Vector6d q;
+    for (std::size_t i = 0; i < 6; ++i) q[static_cast<int>(i)] = draw.uniform(limits_[i].lower, limits_[i].upper);
+    const Pose X_RF = opw_->X_RO * opw_forward(*opw_, to_opw(*opw_, q)) * opw_->X_EF;
+    opw_error_ = std::max(opw_error_, (X_RF.matrix() - forward(q).matrix()).cwiseAbs().maxCoeff());
+  }
+  if (opw_error_ <= kAgreement) return;
+  why_numeric_ = "the closed form misses the URDF's own kinematics by " + std::to_string(opw_error_ * 1000) + " mm";
+  opw_.reset();
 }
 
 Pose Arm::forward(const Vector6d& q) const {

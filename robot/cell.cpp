@@ -16,6 +16,18 @@ Vector6d six_joints(const std::vector<double>& values, const char* key) {
   return Eigen::Map<const Vector6d>(values.data());
 }
 
+void visit_arm(ConfigVisitor& v, Cell& cell) {
+  v.path("arm", cell.arm_path, "URDF of the arm");
+  if (v.reading() || !cell.arm_packages.empty()) {
+    v.command("arm_packages", cell.arm_packages, "folders that hold package folders, for package:// names in the URDF");
+    for (const std::string& folder : cell.arm_packages)
+      if (!is_path_item(folder)) v.fail("arm_packages", "'" + folder + "': folders begin with ./, ../ or /");
+  }
+  if (v.reading() || !cell.arm_tip.empty())
+    v.field("arm_tip", cell.arm_tip, "link that is the flange; else tool0, flange or the only end link");
+  v.field("arm_pose", cell.X_WR, "base of the arm in the world");
+}
+
 /// Housing and bracket of a camera on the flange, in F.
 void add_camera_body(const CameraMount& camera, std::vector<Primitive>& bodies) {
   if (camera.mount != "flange" || !(camera.housing.minCoeff() > 0)) return;
@@ -72,8 +84,7 @@ void Cell::visit(ConfigVisitor& v) {
   v.section("tray", tray, "where parts are put");
   v.section("camera", camera, "where the camera is mounted");
   if (v.reading() || !cameras.empty()) v.list("cameras", cameras, "further cameras: their clouds join the first's");
-  v.path("arm", arm_path, "URDF of the arm");
-  v.field("arm_pose", X_WR, "base of the arm in the world");
+  visit_arm(v, *this);
   const auto gripper_body = [this](ConfigVisitor& g) {
     g.choice("type", gripper_type, gripper_names(), "kind of gripper");
     // While reading a new one is made, so that copies of this cell keep theirs.
@@ -96,7 +107,7 @@ void Cell::visit(ConfigVisitor& v) {
 
 void Cell::finish() {
   if (arm_path.empty()) throw SpecError("cell.arm: the path of the arm's URDF is missing");
-  arm = std::make_shared<const Arm>(Arm::load(arm_path));
+  arm = std::make_shared<const Arm>(Arm::load(ArmSource{arm_path, arm_packages, arm_tip}));
   if (!gripper) gripper = make_gripper(gripper_type);
   gripper->validate();
   if (look.by == "joints") {

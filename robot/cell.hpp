@@ -53,9 +53,11 @@ struct Cell {
   BinSpec bin;
   Pose X_WB = pose_from_xyz_rpy({0.495, 0, 0.005}, {0, 0, 0});
   TraySpec tray;
-  CameraMount camera;                  ///< the first: its C is the frame of every view
-  std::vector<FurtherCamera> cameras;  ///< further ones, whose clouds are fused with the first's
-  std::string arm_path;                ///< URDF
+  CameraMount camera;                     ///< the first: its C is the frame of every view
+  std::vector<FurtherCamera> cameras;     ///< further ones, whose clouds are fused with the first's
+  std::string arm_path;                   ///< URDF
+  std::vector<std::string> arm_packages;  ///< folders that hold package folders, for package:// names in the URDF
+  std::string arm_tip;                    ///< link of the URDF that is F; empty: tool0, flange or the only end link
   Pose X_WR = Pose::Identity();
   std::string gripper_type = "suction";
   std::shared_ptr<Gripper> gripper;  ///< made while visiting

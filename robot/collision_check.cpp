@@ -128,7 +128,7 @@ Obstacle CollisionCheck::hit(const Vector6d& q) const {
     // Base and column stand on the table; the tool has been looked at.
     if (placed.solid->link < 2 || placed.solid->link == kTool) continue;
     if (const Obstacle obstacle = standing_hit(placed); obstacle != Obstacle::kNone) return obstacle;
-    if (placed.solid->link > 2 && heap_hit(placed)) return Obstacle::kHeap;
+    if (heap_hit(placed)) return Obstacle::kHeap;
   }
   return self_hit(movers) ? Obstacle::kSelf : Obstacle::kNone;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "robot/numeric_ik.hpp"
 #include "robot/opw_geometry.hpp"
 
 namespace binpick {
@@ -12,8 +13,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Wrists with sin(q5) below this count as singular: only q4 + q6 (or q4 - q6) is defined there, so q4 is given.
 constexpr double kSingular = 1e-9;
-// A cosine may leave [-1, 1] by this much and still mean "fully stretched".
+// A cosine may leave [-1, 1] by this much and still mean "fully stretched"; more where what comes out is polished.
 constexpr double kStretch = 1e-12;
+constexpr double kLooseStretch = 1e-4;
+constexpr double kSame = 1e-6;  // rad: solutions that polishing has brought together
 
 double wrapped(double angle) {
   const double turned = std::remainder(angle, 2 * kPi);
@@ -35,18 +38,18 @@ void add_wrists(const Eigen::Matrix3d& R_ce, double q4_singular, Vector6d q, std
 }
 
 /// Closed form of Brandstoetter, Angerer, Hofbaur 2014: shoulder x elbow x wrist.
-std::vector<Vector6d> opw_branches(const OpwParameters& opw, const Pose& X_OE, double q4_singular) {
+std::vector<Vector6d> opw_branches(const OpwParameters& opw, const Pose& X_OE, double q4_singular, double stretch) {
   std::vector<Vector6d> out;
   const Eigen::Vector3d p_wrist = X_OE.translation() - opw.c4 * X_OE.linear().col(2);
   const double reach_squared = p_wrist.head<2>().squaredNorm() - opw.b * opw.b;
-  if (reach_squared < 0) return out;
+  if (reach_squared < -stretch * opw.b * opw.b) return out;
   const double k = std::hypot(opw.a2, opw.c3), psi = std::atan2(opw.a2, opw.c3);
   for (const double front : {1.0, -1.0}) {
-    const double x_wrist = front * std::sqrt(reach_squared);
+    const double x_wrist = front * std::sqrt(std::max(0.0, reach_squared));
     const double q1 = std::atan2(p_wrist.y(), p_wrist.x()) - std::atan2(opw.b, x_wrist);
     const double x = x_wrist - opw.a1, z = p_wrist.z() - opw.c1;
     const double cosine = (x * x + z * z - opw.c2 * opw.c2 - k * k) / (2 * opw.c2 * k);
-    if (std::abs(cosine) > 1 + kStretch) continue;
+    if (std::abs(cosine) > 1 + stretch) continue;
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
     for (const double elbow : {1.0, -1.0}) {
       if (elbow < 0 && sine == 0) continue;
@@ -64,14 +67,40 @@ std::vector<Vector6d> opw_branches(const OpwParameters& opw, const Pose& X_OE, d
   return out;
 }
 
-std::vector<Vector6d> branches(const Arm& arm, const Pose& X_RF, double q4_near) {
-  const OpwParameters& opw = arm.opw();
+bool same(const Vector6d& a, const Vector6d& b) {
+  for (int i = 0; i < 6; ++i)
+    if (std::abs(wrapped(a[i] - b[i])) > kSame) return false;
+  return true;
+}
+
+/// From the solutions of the ideal arm to those of a file whose angles are rounded. Where the ideal arm is singular or
+/// out of reach the file's own arm need not be, so that q_near is a start too.
+std::vector<Vector6d> polished(const Arm& arm, const Pose& X_RF, const std::vector<Vector6d>& ideal,
+                               const Vector6d& q_near) {
+  std::vector<Vector6d> found;
+  const auto add = [&](const std::optional<Vector6d>& q) {
+    if (q && std::none_of(found.begin(), found.end(), [&](const Vector6d& known) { return same(known, *q); }))
+      found.push_back(*q);
+  };
+  add(arm.numeric().polished(X_RF, q_near));
+  for (const Vector6d& q : ideal) add(arm.numeric().near(X_RF, q));
+  return found;
+}
+
+std::vector<Vector6d> closed_form_branches(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  const OpwParameters& opw = *arm.opw();
   const Pose X_OE = opw.X_RO.inverse() * X_RF * opw.X_EF.inverse();
-  std::vector<Vector6d> found = opw_branches(opw, X_OE, opw.sign[3] * q4_near - opw.offset[3]);
-  for (Vector6d& q : found) {
-    q = from_opw(opw, q);
+  const double q4_singular = opw.sign[3] * q_near[3] - opw.offset[3];
+  std::vector<Vector6d> found = opw_branches(opw, X_OE, q4_singular, arm.opw_is_exact() ? kStretch : kLooseStretch);
+  for (Vector6d& q : found) q = from_opw(opw, q);
+  return arm.opw_is_exact() ? found : polished(arm, X_RF, found, q_near);
+}
+
+std::vector<Vector6d> branches(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  std::vector<Vector6d> found =
+      arm.opw() ? closed_form_branches(arm, X_RF, q_near) : arm.numeric().branches(X_RF, q_near).q;
+  for (Vector6d& q : found)
     for (int i = 0; i < 6; ++i) q[i] = wrapped(q[i]);
-  }
   return found;
 }
 
@@ -91,15 +120,37 @@ void add_turns(const Arm& arm, const Vector6d& q, int i, std::vector<Vector6d>& 
 
 }  // namespace
 
-std::vector<Vector6d> all_branches(const Arm& arm, const Pose& X_RF) { return branches(arm, X_RF, 0); }
+std::vector<Vector6d> all_branches(const Arm& arm, const Pose& X_RF) { return branches(arm, X_RF, Vector6d::Zero()); }
 
 std::vector<Vector6d> inverse_kinematics(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
   std::vector<Vector6d> solutions;
-  for (const Vector6d& q : branches(arm, X_RF, q_near[3])) add_turns(arm, q, 0, solutions);
+  for (const Vector6d& q : branches(arm, X_RF, q_near)) add_turns(arm, q, 0, solutions);
   const auto motion = [&](const Vector6d& q) { return (q - q_near).cwiseAbs().maxCoeff(); };
   std::stable_sort(solutions.begin(), solutions.end(),
                    [&](const Vector6d& a, const Vector6d& b) { return motion(a) < motion(b); });
   return solutions;
+}
+
+std::optional<Vector6d> following_solution(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  if (arm.opw() && arm.opw_is_exact()) {
+    const std::vector<Vector6d> solutions = inverse_kinematics(arm, X_RF, q_near);
+    return solutions.empty() ? std::nullopt : std::optional(solutions.front());
+  }
+  const std::optional<Vector6d> q = arm.numeric().near(X_RF, q_near);
+  return q && arm.within_limits(*q) ? q : std::nullopt;
+}
+
+bool has_solution(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  if (!arm.opw()) {
+    std::optional<Vector6d> q = arm.numeric().near(X_RF, q_near);
+    if (q) {
+      for (int i = 0; i < 6; ++i) (*q)[i] = wrapped((*q)[i]);
+      std::vector<Vector6d> within;
+      add_turns(arm, *q, 0, within);
+      if (!within.empty()) return true;
+    }
+  }
+  return !inverse_kinematics(arm, X_RF, q_near).empty();
 }
 
 }  // namespace binpick

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
-
 namespace binpick {
 namespace {
 
@@ -46,10 +44,16 @@ Vector meeting_point(const Line& a, const Line& b, double& distance) {
 
 double distance_to(const Line& line, const Vector& point) { return line.direction.cross(point - line.point).norm(); }
 
+/// What keeps an arm from having the closed form; never leaves this file.
+struct NoOpw {
+  std::string why;
+};
+
 class OpwFinder {
  public:
-  OpwFinder(const SerialChain& chain, const std::string& file) : file_(file), axes_(axes_in_base(chain, X_RF_)) {}
+  explicit OpwFinder(const SerialChain& chain) : axes_(axes_in_base(chain, X_RF_)) {}
 
+  /// Throws NoOpw.
   OpwParameters find() {
     check_directions();
     find_wrist();
@@ -60,9 +64,7 @@ class OpwFinder {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw AssetError(file_ + ": " + what + ": no closed-form inverse kinematics for such an arm");
-  }
+  [[noreturn]] static void fail(const std::string& what) { throw NoOpw{what}; }
   void perpendicular(int i, int j) const {
     if (std::abs(axes_[i].direction.dot(axes_[j].direction)) > kAngleTolerance)
       fail("axes of joints " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are not perpendicular");
@@ -135,7 +137,6 @@ class OpwFinder {
     opw_.X_EF = (opw_.X_RO * opw_forward(opw_, to_opw(opw_, Vector6d::Zero()))).inverse() * X_RF_;
   }
 
-  std::string file_;
   Pose X_RF_ = Pose::Identity();
   std::array<Line, 6> axes_;
   Vector x_, y_, z_, shoulder_, elbow_, wrist_, forearm_;
@@ -147,7 +148,14 @@ Eigen::Matrix3d turn_y(double angle) { return Eigen::AngleAxisd(angle, Vector::U
 
 }  // namespace
 
-OpwParameters find_opw(const SerialChain& chain, const std::string& file) { return OpwFinder(chain, file).find(); }
+std::optional<OpwParameters> find_opw(const SerialChain& chain, std::string& why_not) {
+  try {
+    return OpwFinder(chain).find();
+  } catch (const NoOpw& no) {
+    why_not = no.why;
+    return std::nullopt;
+  }
+}
 
 Pose opw_forward(const OpwParameters& opw, const Vector6d& q) {
   const double lean = q[1] + q[2];

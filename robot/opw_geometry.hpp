@@ -2,6 +2,7 @@
 // the forward kinematics in those parameters (Brandstoetter, Angerer, Hofbaur 2014).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "robot/arm.hpp"
@@ -9,10 +10,9 @@
 
 namespace binpick {
 
-/// `file` names the arm in errors. Throws AssetError when the axes are not those of an ortho-parallel basis (joint 2
-/// perpendicular to 1 and parallel to 3) with a spherical wrist (4, 5 and 6 meet in one point, 5 perpendicular to
-/// both).
-OpwParameters find_opw(const SerialChain& chain, const std::string& file);
+/// Empty when the axes are not those of an ortho-parallel basis (joint 2 perpendicular to 1 and parallel to 3) with a
+/// spherical wrist (4, 5 and 6 meet in one point, 5 perpendicular to both); `why_not` then says what is in the way.
+std::optional<OpwParameters> find_opw(const SerialChain& chain, std::string& why_not);
 
 /// X_OE at joint angles of the method itself.
 Pose opw_forward(const OpwParameters& opw, const Vector6d& q_opw);

@@ -13,7 +13,7 @@ bool reaches(const Cell& cell, const Eigen::Vector3d& p_W, const Eigen::Vector3d
   for (int k = 0; k < kTurns; ++k) {
     const Eigen::AngleAxisd turn(2 * std::numbers::pi * k / kTurns, Eigen::Vector3d::UnitZ());
     const Pose X_WG = pose_from(R_WG * turn.toRotationMatrix(), p_W);
-    if (!inverse_kinematics(*cell.arm, cell.X_WR.inverse() * X_WG * X_GF, cell.q_home).empty()) return true;
+    if (has_solution(*cell.arm, cell.X_WR.inverse() * X_WG * X_GF, cell.q_home)) return true;
   }
   return false;
 }

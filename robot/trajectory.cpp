@@ -71,9 +71,9 @@ std::vector<Vector6d> follow_line(const Arm& arm, const Vector6d& q_from, const 
     const double s = static_cast<double>(step) / steps;
     const Pose X =
         pose_from(X_from.linear() * exp_so3(s * turn), (1 - s) * X_from.translation() + s * X_to.translation());
-    const std::vector<Vector6d> solutions = inverse_kinematics(arm, X, path.back());
-    if (solutions.empty() || (solutions.front() - path.back()).cwiseAbs().maxCoeff() > kBranchJump) return {};
-    path.push_back(solutions.front());
+    const std::optional<Vector6d> next = following_solution(arm, X, path.back());
+    if (!next || (*next - path.back()).cwiseAbs().maxCoeff() > kBranchJump) return {};
+    path.push_back(*next);
   }
   return path;
 }

@@ -4,43 +4,44 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
-#include "core/mesh_io.hpp"
-#include "core/mesh_properties.hpp"
+#include "robot/urdf_pose.hpp"
+#include "robot/urdf_shapes.hpp"
 
 namespace binpick {
 namespace {
 
-namespace fs = std::filesystem;
+/// The URDF parser writes its complaints to the terminal; a library must not. The last one goes into our message.
+class CaughtConsole : public console_bridge::OutputHandler {
+ public:
+  CaughtConsole() { console_bridge::useOutputHandler(this); }
+  ~CaughtConsole() override { console_bridge::restorePreviousOutputHandler(); }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR || text.empty()) return;
+    // The innermost comes first and says most.
+    if (first_.empty()) first_ = text.substr(0, text.find('\n'));
+  }
+  std::string complaint() const { return first_.empty() ? "" : ": " + first_; }
 
-Pose pose_of(const urdf::Pose& pose) {
-  double x, y, z, w;
-  pose.rotation.getQuaternion(x, y, z, w);
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
-  X.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  return X;
-}
-
-/// The URDF parser writes its complaints to the terminal; a library must not.
-struct SilentConsole {
-  SilentConsole() { console_bridge::noOutputHandler(); }
-  ~SilentConsole() { console_bridge::restorePreviousOutputHandler(); }
+ private:
+  std::string first_;
 };
 
 class ChainReader {
  public:
-  explicit ChainReader(const std::string& path) : path_(path) {}
+  explicit ChainReader(const ArmSource& source) : source_(source) {}
 
   SerialChain read() {
     parse();
     const std::vector<urdf::LinkConstSharedPtr> links = links_to_tip();
+    for (const auto& link : links) on_path_.insert(link->name);
     chain_.name = model_->getName();
+    chain_.flange_name = links.back()->name;
     chain_.link_names[0] = links.front()->name;
     add_shapes(*links.front(), Pose::Identity());
     for (std::size_t i = 1; i < links.size(); ++i) step(*links[i]);
@@ -50,31 +51,53 @@ class ChainReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw AssetError(path_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const { throw AssetError(source_.urdf + ": " + what); }
 
   void parse() {
-    const std::string text = read_file(path_, std::size_t{4} << 20);
-    const SilentConsole silent;
+    const std::string text = read_file(source_.urdf, std::size_t{4} << 20);
+    if (text.find("<xacro:") != std::string::npos) fail("is a xacro file: expand it first (xacro FILE > arm.urdf)");
+    const CaughtConsole console;
     try {
       model_ = urdf::parseURDF(text);
     } catch (const std::exception& error) {
       fail(std::string("not a readable URDF: ") + error.what());
     }
-    if (!model_) fail("not a readable URDF (broken XML, or an element that is not valid)");
+    if (!model_) fail("not a readable URDF (broken XML, or an element that is not valid)" + console.complaint());
     if (!model_->getRoot()) fail("has no root link");
   }
 
+  static int moving_joints_to(const urdf::Link& link) {
+    int moving = 0;
+    for (const urdf::Link* at = &link; at->parent_joint; at = at->getParent().get())
+      moving += at->parent_joint->type != urdf::Joint::FIXED;
+    return moving;
+  }
+
+  /// tool0 before flange: where both exist (ROS-Industrial) the first has its z out of the flange, the second its x.
   urdf::LinkConstSharedPtr tip() const {
-    for (const char* name : {"flange", "tool0"})
+    if (!source_.tip.empty()) {
+      const auto link = model_->getLink(source_.tip);
+      if (!link) fail("has no link '" + source_.tip + "' (the cell's arm_tip); its links: " + link_list());
+      return link;
+    }
+    for (const char* name : {"tool0", "flange"})
       if (const auto link = model_->getLink(name)) return link;
     urdf::LinkConstSharedPtr leaf;
     for (const auto& [name, link] : model_->links_) {
-      if (!link->child_links.empty()) continue;
-      if (leaf)
-        fail("has several end links ('" + leaf->name + "', '" + name + "') and none is named 'flange' or 'tool0'");
+      // Frames like `base` end short branches.
+      if (!link->child_links.empty() || (leaf && moving_joints_to(*link) < moving_joints_to(*leaf))) continue;
+      if (leaf && moving_joints_to(*link) == moving_joints_to(*leaf))
+        fail("has several end links ('" + leaf->name + "', '" + name +
+             "') and none is named 'tool0' or 'flange'; name one with arm_tip in the cell");
       leaf = link;
     }
     return leaf;
+  }
+
+  std::string link_list() const {
+    std::string list;
+    for (const auto& [name, link] : model_->links_) list += (list.empty() ? "" : ", ") + name;
+    return list;
   }
 
   std::vector<urdf::LinkConstSharedPtr> links_to_tip() const {
@@ -102,7 +125,9 @@ class ChainReader {
     if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::CONTINUOUS)
       fail(where + "is not revolute: only arms with six revolute joints are known");
     if (joint.mimic) fail(where + "mimics another joint: only independent joints are known");
-    if (moving_ == 6) fail("has more than 6 revolute joints between root and tip");
+    if (moving_ == 6)
+      fail("has more than 6 revolute joints between root and '" + chain_.flange_name +
+           "'; name the flange's link with arm_tip in the cell");
     const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
     if (!axis.allFinite() || axis.norm() < 1e-6) fail(where + "has no axis");
     chain_.X_before[moving_] = X_before;
@@ -112,7 +137,7 @@ class ChainReader {
   }
 
   JointLimits limits_of(const urdf::Joint& joint, const std::string& where) const {
-    if (!joint.limits) fail(where + "has no limit element");
+    if (!joint.limits) fail(where + "has no limit element (a continuous joint needs one too: <limit velocity=../>)");
     JointLimits limits{joint.limits->lower, joint.limits->upper, joint.limits->velocity};
     if (joint.type == urdf::Joint::CONTINUOUS) {
       limits.lower = -2 * std::numbers::pi;
@@ -131,74 +156,22 @@ class ChainReader {
     return X;
   }
 
+  /// Shapes of `link` and of all that hangs on it by fixed joints beside the path to the tip. What lies beyond the tip
+  /// is a tool, which the cell describes.
   void add_shapes(const urdf::Link& link, const Pose& X_in_rigid) {
-    for (const auto& collision : link.collision_array) {
-      if (!collision || !collision->geometry) continue;
-      const Pose X = X_in_rigid * checked(pose_of(collision->origin), "a shape of link '" + link.name + "'");
-      chain_.shapes[moving_].push_back(shape_of(*collision->geometry, X, link.name));
+    for (const Primitive& shape : urdf_shapes(link, X_in_rigid, source_, chain_.mesh_files))
+      chain_.shapes[moving_].push_back(shape);
+    if (link.name == chain_.flange_name) return;
+    for (const auto& child : link.child_links) {
+      const urdf::Joint& joint = *child->parent_joint;
+      if (joint.type != urdf::Joint::FIXED || on_path_.count(child->name)) continue;
+      add_shapes(*child,
+                 X_in_rigid * checked(pose_of(joint.parent_to_joint_origin_transform), "joint '" + joint.name + "'"));
     }
   }
 
-  Primitive shape_of(const urdf::Geometry& geometry, const Pose& X, const std::string& link) const {
-    Primitive shape;
-    switch (geometry.type) {
-      case urdf::Geometry::BOX: {
-        const auto& dim = dynamic_cast<const urdf::Box&>(geometry).dim;
-        shape = Primitive::box({dim.x, dim.y, dim.z}, X);
-        break;
-      }
-      case urdf::Geometry::CYLINDER: {
-        const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
-        shape = Primitive::cylinder(cylinder.radius, cylinder.length, X);
-        break;
-      }
-      case urdf::Geometry::SPHERE:
-        shape = Primitive::sphere(dynamic_cast<const urdf::Sphere&>(geometry).radius, X);
-        break;
-      case urdf::Geometry::MESH:
-        shape = bounding_shape(dynamic_cast<const urdf::Mesh&>(geometry), X, link);
-        break;
-    }
-    const int used = shape.kind == Primitive::Kind::kBox ? 3 : shape.kind == Primitive::Kind::kCylinder ? 2 : 1;
-    if (!shape.size.head(used).allFinite() || !(shape.size.head(used).minCoeff() > 0))
-      fail("link '" + link + "' has a shape whose size is not positive");
-    return shape;
-  }
-
-  /// A mesh counts as its bounding box: larger than the link, so nothing is overlooked.
-  Primitive bounding_shape(const urdf::Mesh& mesh, const Pose& X, const std::string& link) const {
-    const std::string file = resolved(mesh.filename, link);
-    MeshReadOptions options;
-    options.unit = "m";  // URDF meshes are metres
-    const Eigen::AlignedBox3d box = bounding_box(read_mesh(file, options));
-    const Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
-    const Eigen::Vector3d center = box.center().cwiseProduct(scale);
-    return Primitive::box(box.sizes().cwiseProduct(scale).cwiseAbs(), X * Eigen::Translation3d(center));
-  }
-
-  /// package://name/rest is looked for in a folder `name` above the URDF. Nothing outside that package is opened.
-  std::string resolved(const std::string& name, const std::string& link) const {
-    fs::path root = fs::absolute(path_).lexically_normal().parent_path();
-    std::string rest = name;
-    if (const std::string scheme = "package://"; name.rfind(scheme, 0) == 0) {
-      const std::size_t slash = name.find('/', scheme.size());
-      const std::string package = name.substr(scheme.size(), slash - scheme.size());
-      while (root.has_relative_path() && root.filename() != package) root = root.parent_path();
-      if (root.filename() != package)
-        fail("link '" + link + "': no folder '" + package + "' above the URDF for mesh '" + name + "'");
-      rest = slash == std::string::npos ? "" : name.substr(slash + 1);
-    } else if (name.rfind("file://", 0) == 0) {
-      rest = name.substr(7);
-    }
-    const fs::path file = (root / rest).lexically_normal();
-    const fs::path inside = file.lexically_relative(root);
-    if (inside.empty() || *inside.begin() == "..")
-      fail("link '" + link + "': mesh '" + name + "' leaves the URDF's folder");
-    if (!fs::is_regular_file(file)) fail("link '" + link + "': mesh file '" + name + "' does not exist");
-    return file.string();
-  }
-
-  std::string path_;
+  const ArmSource& source_;
+  std::set<std::string> on_path_;  ///< names of the links from root to tip
   urdf::ModelInterfaceSharedPtr model_;
   SerialChain chain_;
   std::size_t moving_ = 0;
@@ -207,6 +180,6 @@ class ChainReader {
 
 }  // namespace
 
-SerialChain read_urdf_chain(const std::string& path) { return ChainReader(path).read(); }
+SerialChain read_urdf_chain(const ArmSource& source) { return ChainReader(source).read(); }
 
 }  // namespace binpick

@@ -196,12 +196,17 @@ std::string scenario_hash(const Scenario& scenario) {
     content(entry.spec.pieces);
   }
   content(copy.cell.arm_path);
+  copy.cell.arm_packages.clear();  // where meshes lie says nothing either; they enter below
   const FileNaming by_content = [&](const std::string& path) {
     std::string name = path;
     content(name);
     return name;
   };
-  return hex(Hasher().add(write_yaml([&](ConfigVisitor& v) { copy.visit(v); }, by_content)).value());
+  Hasher hasher;
+  hasher.add(write_yaml([&](ConfigVisitor& v) { copy.visit(v); }, by_content));
+  if (copy.cell.arm)
+    for (const std::string& mesh : copy.cell.arm->mesh_files()) hasher.add(read_file(mesh));
+  return hex(hasher.value());
 }
 
 }  // namespace binpick

@@ -51,7 +51,7 @@ const std::map<std::string, Names> kThirdParties = {
     {"BRep", {"core", "tools"}},
     {"TopoDS", {"core", "tools"}},
     {"gp_", {"core", "tools"}},
-    {"kdl/", {}},  // a yardstick of the tests only
+    {"kdl/", {"robot"}},
     {"CLI/", {"tools"}},
 };
 

@@ -63,7 +63,7 @@ TEST(Arm, ZeroPositionIsKnownOnPaper) {
 }
 
 TEST(Arm, OpwParametersAreThePublishedOnes) {
-  const OpwParameters opw = mz07().opw();
+  const OpwParameters opw = *mz07().opw();
   EXPECT_NEAR(opw.a1, 0.050, 1e-9);
   EXPECT_NEAR(opw.a2, -0.045, 1e-9);
   EXPECT_NEAR(opw.b, 0, 1e-9);
@@ -176,14 +176,33 @@ TEST(BadUrdf, EachSaysWhatIsWrong) {
        "has 5 revolute joints"},
       {replaced(good, "<joint name=\"J3\" type=\"revolute\">", "<joint name=\"J3\" type=\"prismatic\">"),
        "'J3' is not revolute"},
-      {replaced(good, "<origin xyz=\"0.055 0 0\"", "<origin xyz=\"0.055 0.012 0\""),
-       "4, 5 and 6 miss one common point by 12"},
       {replaced(good, "velocity=\"7.85", "velocity=\"-7.85"), "'J1' has no positive speed limit"},
-      {replaced(good, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0.5\"/>"), "not perpendicular"},
   };
   for (const auto& [text, expected] : cases) {
     EXPECT_NE(error_of(text).find(expected), std::string::npos)
         << "expected: " << expected << "\ngot: " << error_of(text);
+  }
+}
+
+TEST(NoClosedForm, IsSaidWithTheReason) {
+  std::ostringstream buffer;
+  buffer << std::ifstream(asset("arms/mz07.urdf")).rdbuf();
+  const std::string good = buffer.str();
+  const std::pair<std::string, std::string> cases[] = {
+      {replaced(good, "<origin xyz=\"0.055 0 0\"", "<origin xyz=\"0.055 0.012 0\""),
+       "4, 5 and 6 miss one common point by 12"},
+      {replaced(good, "<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 0.5\"/>"), "joints 1 and 2 are not perpendicular"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const std::string file = testing::TempDir() + "odd_arm.urdf";
+    std::ofstream(file) << text;
+    const Arm arm = Arm::load(file);
+    EXPECT_FALSE(arm.opw());
+    EXPECT_NE(arm.why_numeric().find(expected), std::string::npos) << arm.why_numeric();
+    const Vector6d q = (Vector6d() << 0.3, 0.2, -0.4, 0.5, 0.9, -0.3).finished();
+    const std::vector<Vector6d> solutions = inverse_kinematics(arm, arm.forward(q), q);
+    ASSERT_FALSE(solutions.empty());
+    EXPECT_LT((solutions.front() - q).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
 
@@ -195,11 +214,11 @@ TEST(BadUrdf, MissingFileAndMissingMesh) {
   const std::string from = "<geometry><box size=\"0.15 0.15 0.12\"/></geometry>\n    </collision>";
   EXPECT_NE(
       error_of(replaced(text, from, "<geometry><mesh filename=\"meshes/gone.stl\"/></geometry>\n    </collision>"))
-          .find("'meshes/gone.stl' does not exist"),
+          .find("'meshes/gone.stl' that does not exist"),
       std::string::npos);
   EXPECT_NE(
       error_of(replaced(text, from, "<geometry><mesh filename=\"../../etc/x.stl\"/></geometry>\n    </collision>"))
-          .find("leaves the URDF's folder"),
+          .find("leaves the folder of the URDF"),
       std::string::npos);
 }
 
