@@ -21,7 +21,8 @@ constexpr double kAim = 1e-7;          // weighted residual at which KDL's solve
 constexpr double kNear = 1e-4;         // weighted residual from which Newton takes over
 constexpr double kSmallestStep = 1e-12;
 constexpr int kIterations = 60;     // beyond them restarts are worth more (measured: 90 % of starts converge in 17)
-constexpr double kDistinct = 1e-3;  // rad, in any joint: nearer solutions are the same one
+constexpr double kDistinct = 1e-3;  // rad, in any joint: nearer solutions of a search are the same one
+constexpr double kJoined = 1e-7;    // rad: solutions of a closed form that Newton has brought together
 
 // Newton's steps.
 constexpr double kExact = 1e-15;    // m and rad, where rounding begins
@@ -37,9 +38,9 @@ KDL::Frame to_kdl(const Pose& X) {
           KDL::Vector(X.translation().x(), X.translation().y(), X.translation().z())};
 }
 
-bool same(const Vector6d& a, const Vector6d& b) {
+bool same(const Vector6d& a, const Vector6d& b, double distinct) {
   for (int i = 0; i < 6; ++i)
-    if (std::abs(std::remainder(a[i] - b[i], 2 * kPi)) > kDistinct) return false;
+    if (std::abs(std::remainder(a[i] - b[i], 2 * kPi)) > distinct) return false;
   return true;
 }
 
@@ -165,7 +166,7 @@ NumericBranches NumericIk::branches(const Pose& X_RF, const Vector6d& q_near) co
     found.restarts += &start != &starts.front();
     if (!q) continue;
     found.converged += &start != &starts.front();
-    if (std::none_of(found.q.begin(), found.q.end(), [&](const Vector6d& known) { return same(known, *q); }))
+    if (std::none_of(found.q.begin(), found.q.end(), [&](const Vector6d& known) { return same(known, *q, kJoined); }))
       found.q.push_back(*q);
   }
   return found;
@@ -190,7 +191,8 @@ NumericBranches NumericIk::search(const Pose& X_RF, const Vector6d& q_near) cons
     ++quiet;
     if (!q) continue;
     ++found.converged;
-    if (std::any_of(found.q.begin(), found.q.end(), [&](const Vector6d& known) { return same(known, *q); })) continue;
+    if (std::any_of(found.q.begin(), found.q.end(), [&](const Vector6d& known) { return same(known, *q, kDistinct); }))
+      continue;
     found.q.push_back(*q);
     add_hops(*q, starts);
     quiet = 0;

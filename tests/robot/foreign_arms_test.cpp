@@ -6,44 +6,13 @@
 #include <fstream>
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
-#include <numbers>
-#include <sstream>
 
-#include "robot/inverse_kinematics.hpp"
-#include "robot/numeric_ik.hpp"
-#include "robot_fixture.hpp"
+#include "foreign_arms.hpp"
 
 namespace binpick {
 namespace {
 
 using namespace testing_robot;
-constexpr double kPi = std::numbers::pi;
-
-struct ForeignArm {
-  const char* file;
-  const char* tip;
-  bool closed_form, exact;
-};
-std::ostream& operator<<(std::ostream& out, const ForeignArm& arm) { return out << arm.file; }
-
-const ForeignArm kArms[] = {
-    {"mz07.urdf", "flange", true, true},        {"kr6_r900.urdf", "tool0", true, true},
-    {"lrmate_200id.urdf", "tool0", true, true}, {"irb1200_description/urdf/irb1200_5_90.urdf", "tool0", true, true},
-    {"tx2_60l.urdf", "link_6", true, false},    {"ur5e.urdf", "tool0", false, false}};
-
-std::string text_of(const std::string& file) {
-  std::ostringstream buffer;
-  buffer << std::ifstream(file).rdbuf();
-  return buffer.str();
-}
-
-/// Largest difference of two joint positions, whole turns ignored.
-double turned_difference(const Vector6d& a, const Vector6d& b) {
-  double most = 0;
-  for (int i = 0; i < 6; ++i) most = std::max(most, std::abs(std::remainder(a[i] - b[i], 2 * kPi)));
-  return most;
-}
-
 KDL::Frame frame_of(const urdf::Pose& pose) {
   double x, y, z, w;
   pose.rotation.getQuaternion(x, y, z, w);
@@ -69,25 +38,6 @@ KDL::Chain chain_of(const std::string& file, const std::string& tip) {
   return chain;
 }
 
-/// Smallest singular value of the Jacobian (m and rad per rad), by differences: a pose rounded by e moves the joints by
-/// up to e over this.
-double least_gain(const Arm& arm, const Vector6d& q) {
-  constexpr double kStep = 1e-6;
-  Matrix6d J;
-  for (int i = 0; i < 6; ++i) {
-    Vector6d before = q, after = q;
-    before[i] -= kStep, after[i] += kStep;
-    const Pose X_1 = arm.forward(before), X_2 = arm.forward(after);
-    J.col(i) << (X_2.translation() - X_1.translation()) / (2 * kStep),
-        log_so3(X_2.linear() * X_1.linear().transpose()) / (2 * kStep);
-  }
-  return J.jacobiSvd().singularValues()[5];
-}
-
-class EveryArm : public testing::TestWithParam<ForeignArm> {
- protected:
-  Arm arm = Arm::load(asset(std::string("arms/") + GetParam().file));
-};
 INSTANTIATE_TEST_SUITE_P(Arms, EveryArm, testing::ValuesIn(kArms));
 
 TEST_P(EveryArm, IsReadAsItsMakerMeant) {
@@ -141,86 +91,6 @@ TEST_P(EveryArm, ClosedFormFindsTheJointsAndEveryBranchReproducesThePose) {  // 
   EXPECT_LE(singular, 2);
 }
 
-TEST_P(EveryArm, NumericSearchFindsTheJointsAndDistinctBranches) {
-  const Rng rng = Seed{7}.child("numeric").rng();
-  constexpr int kDraws = 40;
-  int branches = 0, restarts = 0, converged = 0, closed = 0, missed = 0;
-  for (int k = 0; k < kDraws; ++k) {
-    const Vector6d q = random_joints(arm, rng.at(static_cast<std::uint64_t>(k)));
-    const Pose X_RF = arm.forward(q);
-    const NumericBranches found = arm.numeric().search(X_RF, Vector6d::Constant(0.1));
-    bool own = false;
-    for (std::size_t i = 0; i < found.q.size(); ++i) {
-      EXPECT_LT(largest_difference(arm.forward(found.q[i]), X_RF), 1e-9) << "draw " << k;
-      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(turned_difference(found.q[i], found.q[j]), 1e-3) << "draw " << k;
-      own |= turned_difference(found.q[i], q) < 1e-6;
-    }
-    missed += !own;
-    branches += static_cast<int>(found.q.size());
-    restarts += found.restarts;
-    converged += found.converged;
-    if (arm.opw()) closed += static_cast<int>(all_branches(arm, X_RF).size());
-  }
-  RecordProperty("branches_per_pose", std::to_string(static_cast<double>(branches) / kDraws));
-  RecordProperty("restarts_per_pose", std::to_string(static_cast<double>(restarts) / kDraws));
-  RecordProperty("share_converged", std::to_string(static_cast<double>(converged) / restarts));
-  EXPECT_LE(missed, 1);  // measured: 1 of 200 poses of the UR5e, none of 1000 of the others
-  if (arm.opw()) {
-    EXPECT_LE(branches, closed) << "more branches than there are";
-    EXPECT_GE(branches, 0.97 * closed);
-  }
-}
-
-TEST_P(EveryArm, NumericSearchIsRepeatable) {
-  const Arm again = Arm::load(asset(std::string("arms/") + GetParam().file));
-  const Pose X_RF = arm.forward(random_joints(arm, Seed{7}.child("repeat").rng()));
-  const NumericBranches one = arm.numeric().search(X_RF, Vector6d::Zero());
-  const NumericBranches two = again.numeric().search(X_RF, Vector6d::Zero());
-  ASSERT_FALSE(one.q.empty());
-  EXPECT_EQ(one.q, two.q);
-  EXPECT_EQ(one.restarts, two.restarts);
-}
-
-TEST_P(EveryArm, SingularWristIsSolvedNearAndFar) {
-  const Rng rng = Seed{7}.child("singular").rng();
-  for (int k = 0; k < 20; ++k) {
-    Vector6d q = random_joints(arm, rng.at(static_cast<std::uint64_t>(k)));
-    // The wrist is stretched: axes 4 and 6 are parallel, and the solutions are a continuum.
-    q[4] = arm.opw() ? arm.opw()->sign[4] * arm.opw()->offset[4] : 0;
-    const Pose X_RF = arm.forward(q);
-    const std::vector<Vector6d> at_home = inverse_kinematics(arm, X_RF, q);
-    ASSERT_FALSE(at_home.empty()) << "draw " << k;
-    EXPECT_LT((at_home.front() - q).cwiseAbs().maxCoeff(), 1e-4) << "draw " << k;
-    const std::vector<Vector6d> elsewhere = inverse_kinematics(arm, X_RF, Vector6d::Constant(0.2));
-    EXPECT_FALSE(elsewhere.empty()) << "draw " << k;
-    for (const Vector6d& other : elsewhere)
-      EXPECT_LT(largest_difference(arm.forward(other), X_RF), 1e-6) << "draw " << k;
-    const auto followed = following_solution(arm, X_RF, q);
-    ASSERT_TRUE(followed) << "draw " << k;
-    EXPECT_LT((*followed - q).cwiseAbs().maxCoeff(), 1e-4) << "draw " << k;
-  }
-}
-
-TEST_P(EveryArm, OutOfReachIsEmptyAndSoonSaid) {
-  const Pose far = pose_from_xyz_rpy({1.8, 0, 0.4}, {0, 0, 0}),
-             close = pose_from_xyz_rpy({1.05, 0, 0.4}, {0.3, 0.2, 0});
-  EXPECT_EQ(arm.numeric().search(far, Vector6d::Zero()).restarts, 0);
-  EXPECT_LE(arm.numeric().search(close, Vector6d::Zero()).restarts, NumericIk::kHopeless);
-  EXPECT_TRUE(inverse_kinematics(arm, close, Vector6d::Zero()).empty());
-  EXPECT_FALSE(has_solution(arm, close, Vector6d::Zero()));
-}
-
-TEST(UrType, HasEightBranchesWherePaperSaysSo) {
-  // Wrist bent, elbow bent, shoulder clear of its cylinder: shoulder x elbow x wrist.
-  const Arm arm = Arm::load(asset("arms/ur5e.urdf"));
-  const Vector6d q = (Vector6d() << 0.3, -1.9, 1.6, -1.2, -1.4, 0.4).finished();
-  EXPECT_EQ(all_branches(arm, arm.forward(q)).size(), 8u);
-  // Every joint may turn twice: the nearest of 8 x 2^5 (the elbow turns once) is q itself.
-  const std::vector<Vector6d> all = inverse_kinematics(arm, arm.forward(q), q);
-  EXPECT_GE(all.size(), 8u * 32u);
-  EXPECT_LT((all.front() - q).cwiseAbs().maxCoeff(), 1e-9);
-}
-
 /// Largest distance of the wrist's centre from joint 1's axis, over random positions with a straight wrist.
 double sampled_reach(const Arm& arm) {
   const Rng rng = Seed{7}.child("reach").rng();
@@ -238,12 +108,6 @@ TEST(Reach, IsTheCatalogues) {  // V-C2
   EXPECT_NEAR(sampled_reach(Arm::load(asset("arms/lrmate_200id.urdf"))), 0.717, 0.001);
   EXPECT_NEAR(sampled_reach(Arm::load(asset("arms/irb1200_description/urdf/irb1200_5_90.urdf"))), 0.901, 0.001);
   EXPECT_NEAR(sampled_reach(Arm::load(asset("arms/tx2_60l.urdf"))), 0.920 - 0.070, 0.001);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 Arm arm_of(const std::string& text) {
