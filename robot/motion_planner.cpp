@@ -203,6 +203,11 @@ bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, std::st
   why = "place out of reach";
   int tried = 0;
   for (const WayToPlace& way : ways_to_place(task, q_lifted)) {
+    // A way whose end is blocked is no way: it costs one look, and does not count among those that are tried in full.
+    if (const Obstacle hit = check_.hit(way.q_over); hit != Obstacle::kNone) {
+      why = in_the_way(hit, "release");
+      continue;
+    }
     // A part that is carried through the bin's wall is the commonest fault, and the cheapest to see.
     const JointTrajectory carry = joint_move(*cell_.arm, q_lifted, way.q_over, cell_.motion);
     if (const Obstacle hit = carried_hit(task, carry); hit != Obstacle::kNone) {

@@ -94,7 +94,7 @@ struct PickPlanner::Impl {
   }
 
   std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap, int placed,
-                                         std::map<std::string, int>& rejections) const;
+                                         PlanResult& result) const;
   PickTask task_of(const PickCandidate& candidate, const Target& target, int placed) const;
 
   Cell cell;
@@ -126,8 +126,13 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
 }
 
 std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
-                                                          int placed, std::map<std::string, int>& rejections) const {
-  const std::vector<PickCandidate> candidates = ranked_candidates(targets, {parts, sites, tool, config}, rejections);
+                                                          int placed, PlanResult& result) const {
+  const std::vector<PickCandidate> candidates =
+      ranked_candidates(targets, {parts, sites, tool, config}, result.rejections);
+  const auto reject = [&](const PickCandidate& candidate, const std::string& why) {
+    ++result.rejections[why];
+    result.rejected.push_back({targets[candidate.target].estimate, candidate.X_WG, why});
+  };
   const Pose X_GF = cell.gripper->X_FG().inverse();
   std::vector<CollisionCheck> checks(targets.size(), CollisionCheck(cell, config.clearance));
   for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -145,7 +150,7 @@ std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Targ
     CollisionCheck& check = checks[candidate.target];
     // The tool alone at contact is quickly looked at and does not count.
     if (const Obstacle hit = check.tool_hit(candidate.X_WG * X_GF); hit != Obstacle::kNone) {
-      ++rejections["at contact in collision with " + to_string(hit)];
+      reject(candidate, "at contact in collision with " + to_string(hit));
       continue;
     }
     ++checked;
@@ -154,7 +159,7 @@ std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Targ
     const MotionPlanner planner(cell, config, check);
     const auto motion = planner.plan(task_of(candidate, target, placed), why);
     if (!motion) {
-      ++rejections[why];
+      reject(candidate, why);
       continue;
     }
     return PickPlan{target.estimate,  candidate.site, candidate.X_WG, candidate.X_WP, motion->X_WP_place,
@@ -185,7 +190,7 @@ PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view,
     if (sites.sites.empty())
       ++result.rejections["no seal predicted (" + impl_->parts[target.part].name + ": " + sites.why_none + ")"];
   }
-  result.plan = impl_->try_candidates(targets, heap, placed, result.rejections);
+  result.plan = impl_->try_candidates(targets, heap, placed, result);
   result.outcome = result.plan               ? PickOutcome::kSucceeded
                    : found.estimates.empty() ? PickOutcome::kNoDetection
                                              : PickOutcome::kNoReachablePick;

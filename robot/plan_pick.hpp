@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/pick_outcome.hpp"
 #include "core/pose_estimate.hpp"
@@ -44,12 +45,21 @@ struct PickPlan {
   JointTrajectory back;                ///< to the look pose
 };
 
+/// One way to take a part that was tried and given up.
+struct RejectedCandidate {
+  std::size_t estimate = 0;
+  Pose X_WG = Pose::Identity();  ///< tip at believed contact
+  std::string reason;
+};
+
 struct PlanResult {
   std::optional<PickPlan> plan;
   PickOutcome outcome = PickOutcome::kNoReachablePick;  ///< when there is no plan
   std::string reason;                     ///< "no reachable pick: 34 at contact in collision with the bin, .."
   std::map<std::string, int> rejections;  ///< reason -> count
-  double wall = 0;                        ///< s, decides nothing
+  std::vector<RejectedCandidate>
+      rejected;     ///< in the order tried; those that the tool's tilt alone rules out have no entry
+  double wall = 0;  ///< s, decides nothing
 };
 
 /// Holds what depends on cell, parts and config alone (pick sites, prepared meshes); one per worker serves any number

@@ -33,6 +33,9 @@ int run(const Options& options) {
   }
   std::cout << line << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
+  for (std::size_t k = 0; k < record.picks.size(); ++k)
+    if (record.picks[k].outcome == PickOutcome::kNoReachablePick)
+      std::cerr << "pick " << k << ": " << record.picks[k].reason << '\n';
   std::cerr << "placed " << record.placed << " of " << record.dropped << " in " << record.picks.size() << " picks"
             << std::endl;
   return record.error.empty() ? 0 : 5;

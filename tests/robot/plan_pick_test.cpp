@@ -229,6 +229,12 @@ TEST(PlanPick, OutOfReachSaysSo) {
   const PlanResult result = scene.plan();
   EXPECT_FALSE(result.plan);
   EXPECT_NE(result.reason.find("out of reach"), std::string::npos) << result.reason;
+  // Every candidate that was given up keeps its reason; sites that the tool cannot be tilted to never were candidates.
+  std::map<std::string, int> counted = {{"tool tilted too far", result.rejections.at("tool tilted too far")}};
+  for (const RejectedCandidate& candidate : result.rejected) ++counted[candidate.reason];
+  EXPECT_EQ(counted, result.rejections);
+  ASSERT_FALSE(result.rejected.empty());
+  EXPECT_NEAR(result.rejected.front().X_WG.translation().x(), 1.0, 0.06);
 }
 
 TEST(PlanPick, OneCupOnTheBearingIsRefusedBeforeItPeels) {

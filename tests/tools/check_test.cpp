@@ -1,6 +1,9 @@
-// binpick check: what it says of a scene's arm, and the picture of its reach.
+// binpick check: what it says of a scene's arm, and the picture of its reach; why a pick was not planned; what planning
+// costs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include "core/file_io.hpp"
 #include "tests/tools/run_program.hpp"
@@ -38,6 +41,30 @@ TEST_F(Check, APictureIsOfOneScene) {
   const ProgramRun two = run_program("check " + part + " " + part + " --png " + folder_.path("a.png"));
   EXPECT_EQ(two.code, 2);
   EXPECT_THAT(two.err, HasSubstr("--png: takes one scene, not 2"));
+}
+
+TEST_F(Check, TheBenchOfPlanningCountsEveryLook) {
+  const std::string json = folder_.path("plan.json");
+  const ProgramRun run = run_program("bench planning " + scene("kr6_r900") + " --seeds 11:13 --picks 1 --json " + json);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("2 looks, "));
+  const auto rows = nlohmann::json::parse(read_file(json)).at("rows");
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) {
+    EXPECT_GT(row.at("plan_cpu_ms").get<double>(), 0);
+    EXPECT_EQ(row.at("estimates"), 1);
+    EXPECT_EQ(row.at("planned").get<bool>(), row.at("reason").get<std::string>().empty());
+  }
+}
+
+TEST_F(Check, ATrialWithoutAPlanSaysWhy) {
+  const std::string file = folder_.path("shut.yaml"), root = BINPICK_SOURCE_DIR;
+  write_file(file, "part: " + root + "/assets/parts/bearing_6914/part.yaml\ncount: 1\ncell: " + root +
+                       "/assets/cells/mz07_one_cup.yaml\nsensor: {type: ideal}\nestimator: {type: oracle}\n"
+                       "trial: {max_picks: 1}\n");
+  const ProgramRun run = run_program("trial " + file + " --seed 11");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("pick 0: no reachable pick"));
 }
 
 }  // namespace

@@ -10,5 +10,6 @@ Action add_bench_score(CLI::App& bench);
 Action add_bench_physics(CLI::App& bench);
 Action add_bench_suction(CLI::App& bench);
 Action add_bench_heaps(CLI::App& bench);
+Action add_bench_planning(CLI::App& bench);
 
 }  // namespace binpick
