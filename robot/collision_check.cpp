@@ -169,8 +169,15 @@ Obstacle CollisionCheck::path_hit(const JointTrajectory& path, double step) cons
 }
 
 Obstacle CollisionCheck::points_hit(const std::vector<Eigen::Vector3d>& points_W, double allowed) const {
+  // A ball around all of them: what it does not reach, none of them does.
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p_W : points_W) box.extend(p_W);
+  const Eigen::Vector3d center = box.center();
+  double radius = 0;
+  for (const Eigen::Vector3d& p_W : points_W) radius = std::max(radius, (p_W - center).norm());
   for (const Solid& solid : standing_) {
     const Pose X_SW = solid.X_WS.inverse();
+    if (signed_distance_S(solid.shape, X_SW * center) - radius > 1e-9 - allowed) continue;
     for (const Eigen::Vector3d& p_W : points_W)
       if (signed_distance_S(solid.shape, X_SW * p_W) < -allowed) return solid.kind;
   }

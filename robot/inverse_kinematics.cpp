@@ -118,6 +118,23 @@ void add_turns(const Arm& arm, const Vector6d& q, int i, std::vector<Vector6d>& 
   }
 }
 
+/// The turn of joint i nearest to `near` within its limits, if any lies there.
+std::optional<double> nearest_turn(const JointLimits& limits, double angle, double near) {
+  std::optional<double> best;
+  for (int turn = -3; turn <= 3; ++turn) {
+    const double turned = angle + turn * 2 * kPi;
+    if (turned < limits.lower || turned > limits.upper) continue;
+    if (!best || std::abs(turned - near) < std::abs(*best - near)) best = turned;
+  }
+  return best;
+}
+
+void sort_by_motion(std::vector<Vector6d>& solutions, const Vector6d& q_near) {
+  const auto motion = [&](const Vector6d& q) { return (q - q_near).cwiseAbs().maxCoeff(); };
+  std::stable_sort(solutions.begin(), solutions.end(),
+                   [&](const Vector6d& a, const Vector6d& b) { return motion(a) < motion(b); });
+}
+
 }  // namespace
 
 std::vector<Vector6d> all_branches(const Arm& arm, const Pose& X_RF) { return branches(arm, X_RF, Vector6d::Zero()); }
@@ -125,10 +142,30 @@ std::vector<Vector6d> all_branches(const Arm& arm, const Pose& X_RF) { return br
 std::vector<Vector6d> inverse_kinematics(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
   std::vector<Vector6d> solutions;
   for (const Vector6d& q : branches(arm, X_RF, q_near)) add_turns(arm, q, 0, solutions);
-  const auto motion = [&](const Vector6d& q) { return (q - q_near).cwiseAbs().maxCoeff(); };
-  std::stable_sort(solutions.begin(), solutions.end(),
-                   [&](const Vector6d& a, const Vector6d& b) { return motion(a) < motion(b); });
+  sort_by_motion(solutions, q_near);
   return solutions;
+}
+
+std::vector<Vector6d> nearest_postures(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {
+  std::vector<Vector6d> solutions;
+  for (Vector6d q : branches(arm, X_RF, q_near)) {
+    bool within = true;
+    for (int i = 0; i < 6 && within; ++i) {
+      const auto turned = nearest_turn(arm.limits()[static_cast<std::size_t>(i)], q[i], q_near[i]);
+      within = turned.has_value();
+      if (within) q[i] = *turned;
+    }
+    if (within) solutions.push_back(q);
+  }
+  sort_by_motion(solutions, q_near);
+  return solutions;
+}
+
+bool turns_freely(const Arm& arm) {
+  double turns = 1;
+  for (const JointLimits& limits : arm.limits())
+    turns *= std::max(1.0, std::floor((limits.upper - limits.lower) / (2 * kPi) + 1e-6));
+  return turns > 4;
 }
 
 std::optional<Vector6d> following_solution(const Arm& arm, const Pose& X_RF, const Vector6d& q_near) {

@@ -13,6 +13,13 @@ namespace binpick {
 /// by the largest joint motion from q_near. Empty when out of reach.
 std::vector<Vector6d> inverse_kinematics(const Arm& arm, const Pose& X_RF, const Vector6d& q_near);
 
+/// Of every branch within the limits the turn of each joint that is nearest to q_near, sorted in the same way: where
+/// joints turn twice, inverse_kinematics() has each posture in dozens of turns.
+std::vector<Vector6d> nearest_postures(const Arm& arm, const Pose& X_RF, const Vector6d& q_near);
+
+/// Is this an arm with more than four turns to every posture, as of the UR type?
+bool turns_freely(const Arm& arm);
+
 /// One step along a path: the solution that q_near leads to, if it lies within the limits. The first of
 /// inverse_kinematics() for a closed form; for other arms much quicker than it, and the same branch in small steps.
 std::optional<Vector6d> following_solution(const Arm& arm, const Pose& X_RF, const Vector6d& q_near);

@@ -17,9 +17,6 @@ constexpr double kShortApproach = 0.4;
 constexpr int kYaws = 12;           // turns of the tool over the tray that are tried
 constexpr std::size_t kStarts = 4;  // arm postures per tip pose that are tried
 constexpr int kWays = 8;            // ways to the tray that are checked in full
-// Arms whose joints all turn twice reach a pose with each posture in dozens of turns; the nearest one stands for them.
-// More solutions than an arm has whose last joint alone does (8 branches x 3 turns).
-constexpr std::size_t kManyTurns = 24;
 
 /// z of the lowest point of `points_A` at X_WA.
 double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
@@ -29,20 +26,6 @@ double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
 }
 
 Pose raised(const Pose& X, double height) { return Eigen::Translation3d(0, 0, height) * X; }
-
-/// The first of all that differ by whole turns only.
-std::vector<Vector6d> without_turns(const std::vector<Vector6d>& all) {
-  const auto same = [](const Vector6d& a, const Vector6d& b) {
-    for (int i = 0; i < 6; ++i)
-      if (std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)) > 1e-6) return false;
-    return true;
-  };
-  std::vector<Vector6d> kept;
-  for (const Vector6d& q : all)
-    if (std::none_of(kept.begin(), kept.end(), [&](const Vector6d& known) { return same(known, q); }))
-      kept.push_back(q);
-  return kept;
-}
 
 std::string in_the_way(Obstacle obstacle, const char* where) {
   return std::string(where) + " in collision with " + to_string(obstacle);
@@ -67,8 +50,8 @@ std::optional<PlannedMotion> MotionPlanner::plan(const PickTask& task, std::stri
 Pose MotionPlanner::flange_in_base(const Pose& X_WG) const { return cell_.X_WR.inverse() * X_WG * X_GF_; }
 
 std::vector<Vector6d> MotionPlanner::joints_for(const Pose& X_WG, const Vector6d& q_near) const {
-  std::vector<Vector6d> found = inverse_kinematics(*cell_.arm, flange_in_base(X_WG), q_near);
-  if (found.size() > kManyTurns) found = without_turns(found);
+  std::vector<Vector6d> found = turns_freely(*cell_.arm) ? nearest_postures(*cell_.arm, flange_in_base(X_WG), q_near)
+                                                         : inverse_kinematics(*cell_.arm, flange_in_base(X_WG), q_near);
   if (found.size() > kStarts) found.resize(kStarts);
   return found;
 }

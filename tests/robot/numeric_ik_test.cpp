@@ -124,6 +124,26 @@ TEST(UrType, ClosedFormFindsTheJointsAndEveryBranchReproducesThePose) {  // V-C1
   EXPECT_LE(singular, 2);
 }
 
+TEST(UrType, NearestPosturesAreTheNearestTurnsOfEveryBranch) {
+  const Arm arm = Arm::load(asset("arms/ur5e.urdf"));
+  EXPECT_TRUE(turns_freely(arm));
+  EXPECT_FALSE(turns_freely(mz07()));
+  const Vector6d q = (Vector6d() << 0.3, -1.9, 1.6, -1.2, -1.4, 0.4).finished();
+  const Vector6d q_near = (Vector6d() << 5, -6, 0.5, 4, 3, -5).finished();
+  const Pose X_RF = arm.forward(q);
+  const std::vector<Vector6d> all = inverse_kinematics(arm, X_RF, q_near), few = nearest_postures(arm, X_RF, q_near);
+  ASSERT_EQ(few.size(), 8u);
+  for (const Vector6d& posture : few) {
+    EXPECT_TRUE(arm.within_limits(posture));
+    for (const Vector6d& other : all) {
+      if (turned_difference(other, posture) > 1e-6) continue;
+      for (int i = 0; i < 6; ++i)
+        EXPECT_LE(std::abs(posture[i] - q_near[i]), std::abs(other[i] - q_near[i]) + 1e-9) << "joint " << i;
+    }
+  }
+  EXPECT_NEAR((few.front() - q_near).cwiseAbs().maxCoeff(), (all.front() - q_near).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(UrType, AnotherWristIsNoUrType) {
   // Axis 5 leans against axis 4: only the search is left, and finds the way back.
   std::string text = text_of(asset("arms/ur5e.urdf"));
