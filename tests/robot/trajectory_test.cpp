@@ -4,8 +4,8 @@
 
 #include <numbers>
 
+#include "foreign_arms.hpp"
 #include "robot/inverse_kinematics.hpp"
-#include "robot_fixture.hpp"
 
 namespace binpick {
 namespace {
@@ -49,8 +49,10 @@ TEST(JointMove, TrapezoidTimeIsTheFormulas) {
   }
 }
 
-TEST(JointMove, StaysWithinSpeedAndAccelerationAndEndsThere) {
-  const Arm arm = mz07();
+class EveryArmMoves : public EveryArm {};
+INSTANTIATE_TEST_SUITE_P(Arms, EveryArmMoves, testing::ValuesIn(kArms));
+
+TEST_P(EveryArmMoves, StaysWithinSpeedAndAccelerationAndEndsThere) {  // V-C3
   const Rng rng = Seed{3}.child("joint_move").rng();
   for (std::uint64_t k = 0; k < 200; ++k) {
     const Vector6d from = random_joints(arm, rng.at(2 * k)), to = random_joints(arm, rng.at(2 * k + 1));
@@ -64,8 +66,7 @@ TEST(JointMove, StaysWithinSpeedAndAccelerationAndEndsThere) {
   }
 }
 
-TEST(LinearMove, IsStraightAndWithinTheLimits) {
-  const Arm arm = mz07();
+TEST_P(EveryArmMoves, IsStraightAndWithinTheLimits) {  // V-C3
   const MotionLimits limits;
   const Rng rng = Seed{3}.child("linear_move").rng();
   int done = 0;
