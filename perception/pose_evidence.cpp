@@ -1,33 +1,27 @@
 #include "perception/pose_evidence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "perception/part_view.hpp"
 
 namespace binpick {
 namespace {
 
-constexpr int kBeyond = 5, kBeyondInHole = 3;  // px outside the outline: past fattening and mixed pixels
-constexpr int kInside = 3;                     // px inside it, where the surface is taken from
-constexpr float kLeastFacing = 0.2f;           // cosine, of a surface that is carried on
-constexpr float kLeastAlike = 0.9f;            // cosine between the normals on either side
-constexpr float kHigh = 0.012f;                // m, that an occluder commonly stands off
-constexpr float kSteepest = 0.01f;             // m per px, slope that is carried on outside the outline
-constexpr int kSides = 8;
-constexpr double kFewOfSide = 4;  // judged outline pixels that a side's share is damped by
-constexpr int kReach = 2;         // px to either side of a border, over which a step is looked for
-constexpr int kPatch = 6;         // px
+constexpr float kHigh = 0.012f;     // m, that an occluder commonly stands off
+constexpr float kSteepest = 0.01f;  // m per px, slope that is carried on outside the outline
+constexpr float kParallel = 0.9f;   // cosine between the normals of part and cover
+constexpr double kFewPixels = 20;   // explained pixels that shares of them are damped by
+constexpr int kReach = 2;           // px to either side of a border, over which a step is looked for
+constexpr int kPatch = 6;           // px
 constexpr int kFewOfPatch = 12;
 constexpr double kLeastSigma = 0.0005;  // m, below which residuals say nothing more
 constexpr double kBiasSigmas = 0.1;     // of the noise that no averaging within a patch removes
 
-enum class Seen : std::uint8_t { kNothing, kExplained, kCovered, kOther };
+enum class Seen : std::uint8_t { kNothing, kExplained, kCovered, kThrough, kOther };
 
 struct Sums {
-  int smooth = 0, steps = 0, thin = 0;
+  int smooth = 0, steps = 0, explained = 0, through = 0, foreign = 0, parallel = 0;
   double patches = 0, square = 0, turned = 0, normals = 0;
 };
 
@@ -48,10 +42,14 @@ class Evidence {
       }
   }
 
-  /// What covers the part, but lies just above it.
-  void add_thin_cover(Sums& sums) const {
-    for (int y = 0; y < seen_.height(); ++y)
-      for (int x = 0; x < seen_.width(); ++x) sums.thin += seen_(x, y) == Seen::kCovered && residual(x, y) > -kHigh;
+  /// What is seen through, and what covers, among its likes: a pixel beside an edge says little.
+  void add_areas(const std::vector<std::uint8_t>& taken, Sums& sums) const {
+    for (int y = 1; y < seen_.height() - 1; ++y)
+      for (int x = 1; x < seen_.width() - 1; ++x) {
+        sums.explained += seen_(x, y) == Seen::kExplained;
+        sums.through += among_likes(x, y, Seen::kThrough);
+        if (among_likes(x, y, Seen::kCovered) && taken[index(x, y)] == 0) add_cover(x, y, sums);
+      }
   }
 
   void add_patches(Sums& sums) const {
@@ -79,7 +77,28 @@ class Evidence {
     if (std::isnan(r)) return Seen::kOther;
     const float tolerance = depth_tolerance(scene_, view_.depth(x, y), config_) + slope(x, y);
     if (r < -tolerance) return Seen::kCovered;
-    return r > tolerance || !scene_.wanted(view_.u0 + x, view_.v0 + y) ? Seen::kOther : Seen::kExplained;
+    if (r > tolerance) return Seen::kThrough;
+    return scene_.wanted(view_.u0 + x, view_.v0 + y) ? Seen::kExplained : Seen::kOther;
+  }
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(view_.v0 + y) * static_cast<std::size_t>(scene_.depth.width()) +
+           static_cast<std::size_t>(view_.u0 + x);
+  }
+
+  bool among_likes(int x, int y, Seen what) const {
+    if (seen_(x, y) != what) return false;
+    for (int b = -1; b <= 1; ++b)
+      for (int a = -1; a <= 1; ++a)
+        if (seen_(x + a, y + b) != what) return false;
+    return true;
+  }
+
+  void add_cover(int x, int y, Sums& sums) const {
+    ++sums.foreign;
+    if (residual(x, y) < -kHigh || !inner(x, y)) return;
+    const Eigen::Vector3f& s = scene_.normals(view_.u0 + x, view_.v0 + y);
+    sums.parallel += !s.isZero() && s.dot(drawn_normal(x, y)) > kParallel;
   }
 
   /// An occluder stands off: between the explained side and the covered one the scene steps. Where the difference to
@@ -133,60 +152,6 @@ class Evidence {
   Image<Seen> seen_;
 };
 
-/// The pixel beyond the outline, as far out as the part itself lets it be; false inside of narrow gaps.
-bool pixel_beyond(const PartView& view, const OutlinePixel& o, int& beyond, Eigen::Vector2i& out) {
-  for (beyond = kBeyond; beyond >= kBeyondInHole; --beyond) {
-    out = {static_cast<int>(std::lround(static_cast<float>(o.u) + static_cast<float>(beyond) * o.outward.x())),
-           static_cast<int>(std::lround(static_cast<float>(o.v) + static_cast<float>(beyond) * o.outward.y()))};
-    if (!view.inside(out.x(), out.y())) return true;
-  }
-  return false;
-}
-
-enum class Rim { kUnknown, kEnds, kGoesOn };
-
-/// Does the scene's own surface, as it lies inside the outline, reach beyond it?
-Rim judge_rim(const Scene& scene, const PartView& view, const OutlinePixel& o, const std::vector<std::uint8_t>& taken,
-              const CheckConfig& config) {
-  int beyond = 0;
-  Eigen::Vector2i out;
-  if (!pixel_beyond(view, o, beyond, out) || !scene.depth.contains(out.x(), out.y())) return Rim::kUnknown;
-  const Eigen::Vector2i in(
-      static_cast<int>(std::lround(static_cast<float>(o.u) - static_cast<float>(kInside) * o.outward.x())),
-      static_cast<int>(std::lround(static_cast<float>(o.v) - static_cast<float>(kInside) * o.outward.y())));
-  if (!view.inside(in.x(), in.y())) return Rim::kUnknown;
-  const float inside = scene.depth(in.x(), in.y()), seen = scene.depth(out.x(), out.y());
-  const float tolerance = depth_tolerance(scene, o.z, config);
-  const Eigen::Vector3f& n = scene.normals(in.x(), in.y());
-  if (!(std::abs(inside - view.at(in.x(), in.y())) < 2 * tolerance) || n.isZero() || std::isnan(seen))
-    return Rim::kUnknown;
-  const float facing = n.dot(scene.point(out.x(), out.y(), 1));
-  const float expected = facing < -kLeastFacing ? n.dot(scene.point(in.x(), in.y(), inside)) / facing : 0;
-  if (seen < expected - tolerance) return Rim::kUnknown;  // something nearer covers the place
-  const bool turns = scene.normals(out.x(), out.y()).dot(n) < kLeastAlike;
-  if (seen > expected + tolerance || turns || !scene.wanted(out.x(), out.y())) return Rim::kEnds;
-  const auto index = static_cast<std::size_t>(out.y()) * static_cast<std::size_t>(scene.depth.width()) +
-                     static_cast<std::size_t>(out.x());
-  return taken[index] > 0 ? Rim::kUnknown : Rim::kGoesOn;
-}
-
-void judge_outline(const Scene& scene, const PartView& view, const std::vector<std::uint8_t>& taken,
-                   const CheckConfig& config, PoseEvidence& e) {
-  std::array<double, kSides> on{}, judged{};
-  double all_judged = 0, all = 0;
-  for (const OutlinePixel& o : outline_of(view)) {
-    const double turn = std::atan2(o.outward.y(), o.outward.x()) / (2 * std::numbers::pi) + 1;  // 0.5 .. 1.5
-    const int side = static_cast<int>(std::lround(turn * kSides)) % kSides;
-    const Rim rim = judge_rim(scene, view, o, taken, config);
-    all += 1;
-    if (rim == Rim::kUnknown) continue;
-    judged[side] += 1, all_judged += 1;
-    if (rim == Rim::kGoesOn) on[side] += 1;
-  }
-  e.judged = all > 0 ? all_judged / all : 0;
-  for (int k = 0; k < kSides; ++k) e.leak_side = std::max(e.leak_side, on[k] / (judged[k] + kFewOfSide));
-}
-
 }  // namespace
 
 PoseEvidence gather_evidence(const Scene& scene, const SurfaceModel& model, const Pose& X_CP,
@@ -194,14 +159,17 @@ PoseEvidence gather_evidence(const Scene& scene, const SurfaceModel& model, cons
   PoseEvidence e;
   const PartView view = draw_part(scene.camera, model, X_CP);
   if (view.pixels == 0) return e;
-  judge_outline(scene, view, taken, config, e);
+  e.rims = judge_rims(scene, view, taken, config);
   const Evidence pixels(scene, view, config);
   Sums sums;
   pixels.add_borders(sums);
-  pixels.add_thin_cover(sums);
+  pixels.add_areas(taken, sums);
   pixels.add_patches(sums);
+  const double explained = sums.explained + kFewPixels;
+  e.hollow = sums.through / explained;
   e.smooth_cover = sums.smooth / (sums.smooth + sums.steps + 10.0);
-  e.thin_cover = static_cast<double>(sums.thin) / view.pixels;
+  e.parallel = sums.parallel / explained;
+  e.foreign = sums.foreign / explained;
   if (sums.patches > 0) e.residual = std::sqrt(sums.square / sums.patches);
   if (sums.normals > 0) e.turned = sums.turned / sums.normals;
   return e;

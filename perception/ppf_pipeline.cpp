@@ -16,6 +16,7 @@ namespace {
 constexpr int kRim = 2;           // px about an explained pixel that count as explained, too
 constexpr int kShares = 8;        // of the references, when few poses are enough
 constexpr std::size_t kWave = 4;  // hypotheses refined at a time then
+constexpr double kTrusted = 0.5;  // probability from which a pose may explain what lies about another
 
 class Stopwatch {
  public:
@@ -43,13 +44,20 @@ PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   return e;
 }
 
-/// Of every pixel, how many of the poses explain it.
-std::vector<std::uint8_t> times_explained(const Scene& scene, const std::vector<Candidate>& poses) {
+/// Of every pixel, how many poses explain it.
+void add_explained(const Candidate& c, int by, std::vector<std::uint8_t>& times) {
+  for (const std::uint32_t i : c.check.explained) times[i] = static_cast<std::uint8_t>(times[i] + by);
+}
+std::vector<std::uint8_t> times_explained(const Scene& scene, const std::vector<Candidate>& poses,
+                                          const std::vector<char>& counted) {
   std::vector<std::uint8_t> times(scene.depth.size(), 0);
-  for (const Candidate& c : poses)
-    for (const std::uint32_t i : c.check.explained) ++times[i];
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (counted[i]) add_explained(poses[i], 1, times);
   return times;
 }
+
+/// Probability that a pose or its twin is right: one of two twins is as good as the pair of them.
+double either(const Candidate& c) { return (c.ambiguous ? 2 : 1) * c.score; }
 
 /// The scene without the pixels that sure poses explain.
 Scene unexplained(const Scene& scene, const std::vector<Candidate>& standing, double sure_quality) {
@@ -93,18 +101,14 @@ std::vector<Candidate> PpfEstimator::search(const Scene& scene, StageTimes& wall
 /// Every pose against what the view might take for it. True when one was changed.
 bool PpfEstimator::settle(const Scene& scene, std::vector<Candidate>& standing) const {
   bool changed = false;
-  std::vector<std::uint8_t> taken(scene.depth.size(), 0);
-  const auto count = [&](const Candidate& c, int by) {
-    for (const std::uint32_t i : c.check.explained) taken[i] = static_cast<std::uint8_t>(taken[i] + by);
-  };
-  for (const Candidate& c : standing) count(c, 1);
+  std::vector<std::uint8_t> taken = times_explained(scene, standing, std::vector<char>(standing.size(), 1));
   for (Candidate& c : standing) {
     if (c.settled) continue;
     const PreparedPart& part = parts_[c.part];
-    count(c, -1);
+    add_explained(c, -1, taken);
     changed |=
         settle_rivals(scene, part.surface, part.overlaps, {settings_.rivals, settings_.icp, settings_.check}, taken, c);
-    count(c, 1);
+    add_explained(c, 1, taken);
     c.settled = true;
   }
   return changed;
@@ -178,32 +182,36 @@ std::vector<Candidate> PpfEstimator::first_poses(const Scene& scene, StageTimes&
   return standing;
 }
 
-/// Without pieces of something larger: a pose falls when on one side the surface goes on and nobody explains it. Who
-/// leaned on it is asked again.
-std::vector<Candidate> PpfEstimator::whole_ones(const Scene& scene, std::vector<Candidate> standing) const {
-  for (std::size_t before = standing.size() + 1; standing.size() < before;) {
-    before = standing.size();
-    std::vector<std::uint8_t> taken = times_explained(scene, standing);
-    for (Candidate& c : standing) {
-      for (const std::uint32_t i : c.check.explained) --taken[i];
-      c.evidence = gather_evidence(scene, parts_[c.part].surface, c.fit.X_CP, taken, settings_.check);
-      for (const std::uint32_t i : c.check.explained) ++taken[i];
+/// What speaks for each pose. Only poses that are likelier right than not, themselves, may explain what lies beside and
+/// upon another one: who leaned on a doubtful one is asked again.
+void PpfEstimator::judge(const Scene& scene, std::vector<Candidate>& standing) const {
+  std::vector<char> trusted(standing.size(), 1);
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<std::uint8_t> taken = times_explained(scene, standing, trusted);
+    for (std::size_t i = 0; i < standing.size(); ++i) {
+      Candidate& c = standing[i];
+      const PreparedPart& part = parts_[c.part];
+      if (trusted[i]) add_explained(c, -1, taken);
+      c.evidence = gather_evidence(scene, part.surface, c.fit.X_CP, taken, settings_.check);
+      if (trusted[i]) add_explained(c, 1, taken);
+      c.score = calibrated_score(score_features(part.surface, c, part.twists), c.ambiguous);
     }
-    std::erase_if(standing,
-                  [&](const Candidate& c) { return c.evidence.leak_side > settings_.accept.largest_side_leak; });
+    for (std::size_t i = 0; i < standing.size(); ++i) {
+      const Candidate& c = standing[i];
+      const bool doubtful = either(c) < kTrusted || c.evidence.rims.leak_side > settings_.accept.largest_side_leak;
+      changed |= trusted[i] && doubtful;
+      trusted[i] &= !doubtful;
+    }
   }
-  return standing;
 }
 
-/// Best first: what the view cannot tell from a twin comes last.
+/// Best first: what the view cannot tell from a twin comes last. Without what is less likely than asked for, and
+/// without pieces of something larger, whose surface goes on at one side and nobody explains it.
 std::vector<Candidate> PpfEstimator::scored(const Scene& scene, std::vector<Candidate> standing) const {
-  standing = whole_ones(scene, std::move(standing));
-  for (Candidate& c : standing) {
-    const PreparedPart& part = parts_[c.part];
-    c.score = calibrated_score(score_features(part.surface, c, part.twists), c.ambiguous);
-  }
-  std::erase_if(standing, [&](const Candidate& c) {  // one of two twins is as good as the pair of them
-    return (c.ambiguous ? 2 : 1) * c.score < settings_.accept.least_score;
+  judge(scene, standing);
+  std::erase_if(standing, [&](const Candidate& c) {
+    return either(c) < settings_.accept.least_score || c.evidence.rims.leak_side > settings_.accept.largest_side_leak;
   });
   std::stable_sort(standing.begin(), standing.end(), [](const Candidate& a, const Candidate& b) {
     return a.ambiguous != b.ambiguous ? b.ambiguous : a.score > b.score;

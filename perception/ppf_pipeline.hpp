@@ -42,7 +42,7 @@ class PpfEstimator : public PoseEstimator {
   std::vector<Candidate> first_poses(const Scene& scene, StageTimes& wall) const;  ///< search.enough
   bool refine_in_waves(const Scene& scene, std::size_t part, const std::vector<PoseHypothesis>& poses,
                        std::vector<Candidate>& standing) const;
-  std::vector<Candidate> whole_ones(const Scene& scene, std::vector<Candidate> standing) const;
+  void judge(const Scene& scene, std::vector<Candidate>& standing) const;
   std::vector<Candidate> scored(const Scene& scene, std::vector<Candidate> standing) const;
   bool enough(const std::vector<Candidate>& standing) const;
   PpfSettings settings_;

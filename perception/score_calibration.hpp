@@ -14,7 +14,7 @@
 
 namespace binpick {
 
-constexpr std::size_t kScoreFeatures = 16;
+constexpr std::size_t kScoreFeatures = 19;
 using ScoreFeatures = std::array<double, kScoreFeatures>;
 const std::array<std::string, kScoreFeatures>& score_feature_names();
 

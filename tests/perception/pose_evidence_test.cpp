@@ -49,9 +49,12 @@ PoseEvidence believed(const Look& look, double top, std::uint8_t taken = 0) {
 
 TEST(PoseEvidence, NothingSpeaksAgainstABlockInItsPlace) {
   const PoseEvidence e = believed(look_at_block({0.06, 0.04, 0.02}), 0.04);
-  EXPECT_EQ(e.leak_side, 0);
-  EXPECT_GT(e.judged, 0.9);
-  EXPECT_EQ(e.thin_cover, 0);
+  EXPECT_EQ(e.rims.leak_side, 0);
+  EXPECT_EQ(e.rims.attached, 0);
+  EXPECT_GT(e.rims.judged, 0.9);
+  EXPECT_EQ(e.parallel, 0);
+  EXPECT_EQ(e.foreign, 0);
+  EXPECT_EQ(e.hollow, 0);
   EXPECT_EQ(e.smooth_cover, 0);
   EXPECT_LT(e.residual, 0.5);
   EXPECT_LT(e.turned, 0.02);
@@ -59,14 +62,44 @@ TEST(PoseEvidence, NothingSpeaksAgainstABlockInItsPlace) {
 
 TEST(PoseEvidence, ABlockOnALongerOneLeaksAtItsEndsUnlessAnotherPoseExplainsWhatFollows) {
   const Look look = look_at_block({0.16, 0.04, 0.02});
-  EXPECT_GT(believed(look, 0.04).leak_side, 0.7);  // 30 px at an end, of which those next to the corners look sideways
-  EXPECT_EQ(believed(look, 0.04, 1).leak_side, 0);
+  EXPECT_GT(believed(look, 0.04).rims.leak_side,
+            0.7);  // 30 px at an end, of which those next to the corners look sideways
+  EXPECT_EQ(believed(look, 0.04, 1).rims.leak_side, 0);
 }
 
-TEST(PoseEvidence, WhatCoversAPoseFromJustAboveIsNoOccluder) {
+TEST(PoseEvidence, WhatCoversAPoseFromJustAboveIsNoOccluderUnlessAnotherPoseExplainsIt) {
   const Look look = look_at_block({0.16, 0.12, 0.02});
-  EXPECT_GT(believed(look, 0.034).thin_cover, 0.9);  // 6 mm under the top
-  EXPECT_EQ(believed(look, 0.020).thin_cover, 0);    // 20 mm under it
+  EXPECT_GT(believed(look, 0.034).parallel, 0.9);  // 6 mm under the top
+  EXPECT_EQ(believed(look, 0.034, 1).parallel, 0);
+  EXPECT_EQ(believed(look, 0.020).parallel, 0);  // 20 mm under it
+  EXPECT_GT(believed(look, 0.020).foreign, 0.9);
+  EXPECT_EQ(believed(look, 0.020, 1).foreign, 0);
+}
+
+TEST(PoseEvidence, HalfABlockIsSeenThrough) {
+  // Each half has some 25 x 35 pixels; of those seen through, a rim of one does not count, at the middle another of
+  // two.
+  const PoseEvidence e = believed(look_at_block({0.03, 0.04, 0.02}), 0.04);
+  EXPECT_GT(e.hollow, 0.5);
+  EXPECT_LT(e.hollow, 1);
+}
+
+TEST(PoseEvidence, ASurfaceThatBendsAtTheOutlineHangsTogether) {
+  // A beam of 60 x 40 x 40 mm on edge: the block's top is one of its two upper faces, and at the ridge the other
+  // begins.
+  HeapOptions options;
+  options.noise = false;
+  const Pose X_WO = pose_from_xyz_rpy({0, 0, 0.06}, {std::numbers::pi / 4, 0, 0});
+  const HeapScene made = photograph(block({0.06, 0.04, 0.04}), {{0, X_WO, 0, 0}}, options, Seed{1}, camera_above(0.6));
+  const Part part = block({0.06, 0.04, 0.002});
+  const SurfaceModel model(part.mesh_P, 0.02 * part.diameter, 0.1 * part.diameter);
+  const Scene scene = binpick::make_scene(made.view, PreprocessConfig(), NormalsConfig(), 0.002);
+  const std::vector<std::uint8_t> nobody(scene.depth.size(), 0), others(scene.depth.size(), 1);
+  const Pose X_CP = made.X_WC.inverse() * X_WO * pose_from_xyz_rpy({0, 0, 0.019}, {0, 0, 0});
+  const RimEvidence rims = gather_evidence(scene, model, X_CP, nobody, CheckConfig()).rims;
+  EXPECT_GT(rims.attached, 0.6);
+  EXPECT_LT(rims.leak_side, 0.2);  // nowhere straight on
+  EXPECT_EQ(gather_evidence(scene, model, X_CP, others, CheckConfig()).rims.attached, 0);
 }
 
 TEST(PoseEvidence, ResidualsAreMeasuredInWhatTheStatedNoiseLeavesOfAPatch) {

@@ -13,7 +13,7 @@ namespace {
 using namespace testing_scene;
 
 /// A pose that everything speaks for.
-ScoreFeatures good() { return {1, 3.5, 0.02, 1, 3.3, 0.02, 0.02, 0, -2.5, 0.02, 0.7, 0.1, 0, -0.2, 0, 0.2}; }
+ScoreFeatures good() { return {1, 3.5, 0.02, 1, 3.3, 0.02, 0.02, 0, -2.5, 0.02, 0.7, 0.1, -0.2, 0, 0.2, -2, -2, 0, 0}; }
 
 TEST(Score, LiesBetweenZeroAndOneAndIsHalvedWhereTwoPosesLookAlike) {
   EXPECT_EQ(score_feature_names().size(), kScoreFeatures);

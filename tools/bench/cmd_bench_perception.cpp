@@ -12,6 +12,7 @@
 #include "tools/bench/perception_calibration.hpp"
 #include "tools/bench/perception_rows.hpp"
 #include "tools/bench/perception_score_fit.hpp"
+#include "tools/bench/perception_wrong.hpp"
 
 namespace binpick {
 namespace {
@@ -19,9 +20,9 @@ namespace {
 struct Options {
   PerceptionBenchConfig bench;
   std::vector<std::string> parts, estimators, files, settings;
-  std::string scenes_folder = "scenes", features, seeds, json, calibration, bin_offset, bin_turn;
+  std::string scenes_folder = "scenes", features, seeds, json, calibration, bin_offset, bin_turn, other_part;
   int scenes = 10;
-  bool failures = false, ablation = false, peers = false, markdown = false;
+  bool failures = false, ablation = false, peers = false, markdown = false, wrong = false;
 };
 
 /// The shipped scene of a part: scenes/<part>_bin.yaml, or with the first word of the part's name.
@@ -54,15 +55,18 @@ std::vector<ContenderSpec> contenders(const Options& options) {
 
 void finish(Options& options) {
   for (const std::string& part : options.parts) options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
-  if (options.bench.scenes.empty())
-    for (const char* part :
-         {"bearing_6914", "bracket_l", "bolt_m24x80", "gear_m3_z24", "plate_100x60", "shaft_25_35x120"})
-      options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
+  if (options.bench.scenes.empty()) {
+    std::vector<std::string> parts = {"bearing_6914", "bracket_l",    "bolt_m24x80",
+                                      "gear_m3_z24",  "plate_100x60", "shaft_25_35x120"};
+    if (options.wrong) parts.push_back("tee");
+    for (const std::string& part : parts) options.bench.scenes.push_back(scene_of(options.scenes_folder, part));
+  }
   if (options.bench.sensors.empty()) options.bench.sensors = {"gauss_0.5mm", "d435_848"};
   options.bench.contenders = contenders(options);
   options.bench.last_seed = options.bench.first_seed + static_cast<std::uint64_t>(options.scenes);
-  options.bench.ask_first = !options.ablation && options.features.empty();
+  options.bench.ask_first = !options.ablation && !options.wrong && options.features.empty();
   ViewTrouble& trouble = options.bench.trouble;
+  if (!options.other_part.empty()) trouble.other_part = read_part_spec(options.other_part);
   if (!options.bin_offset.empty()) trouble.bin_offset = parse_quantity(options.bin_offset, Unit::kLength);
   if (!options.bin_turn.empty()) trouble.bin_turn = parse_quantity(options.bin_turn, Unit::kAngle);
   if (!options.seeds.empty()) std::tie(options.bench.first_seed, options.bench.last_seed) = parse_seeds(options.seeds);
@@ -70,6 +74,7 @@ void finish(Options& options) {
 
 std::string table_for(const Options& options, const std::vector<PerceptionRow>& rows) {
   if (options.ablation) return ablation_table(rows);
+  if (options.wrong) return wrong_parts_table(rows);
   return options.markdown ? markdown_of(rows) : table_of(rows);
 }
 
@@ -78,7 +83,8 @@ int run(Options options) {
   options.bench.features = !options.features.empty();
   if (!options.json.empty()) write_file(options.json, "{\"rows\": []}\n");  // a bad place is known at once
   StderrProgress progress;
-  const std::vector<PerceptionRow> rows = bench_perception(options.bench, progress);
+  const std::vector<PerceptionRow> rows =
+      options.wrong ? bench_wrong_parts(options.bench, progress) : bench_perception(options.bench, progress);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
   if (!options.bench.heaps_only) std::cout << table_for(options, rows);
   if (!options.calibration.empty()) std::cout << "\n" << write_calibration(rows, options.calibration);
@@ -127,8 +133,9 @@ void add_troubles(CLI::App& command, Options& o) {
   command.add_flag("--no-bin", trouble.no_bin, "the estimator is told of no bin: floor and walls stay in the cloud");
   command.add_flag("--as-cloud", trouble.as_cloud, "points in random order in place of the depth image");
   command.add_flag("--no-parts", trouble.no_parts, "the bins are empty: every estimate is wrong");
-  command.add_option("--other-part", trouble.other_part,
-                     "part.yaml that is looked for instead: every estimate is wrong");
+  command.add_option("--other-part", o.other_part, "part.yaml that is looked for instead: every estimate is wrong");
+  command.add_flag("--wrong", o.wrong,
+                   "every part looked for in the heaps of every other, as Markdown; default: all seven");
 }
 
 }  // namespace

@@ -61,8 +61,8 @@ class SceneBench {
   /// Usually the scene's own parts, and their instances are the truth; what else is looked for is not there.
   void choose_sought() {
     sought_ = context_.parts;
-    if (!config_.trouble.other_part.empty()) {
-      sought_ = {load_part(read_part_spec(config_.trouble.other_part))};
+    if (config_.trouble.other_part) {
+      sought_ = {load_part(*config_.trouble.other_part)};
       context_.checker = std::make_unique<const PoseChecker>(sought_);
     }
     for (const Part& part : sought_) views_.emplace_back(part);
@@ -82,7 +82,7 @@ class SceneBench {
     CellWorld cell_world(scenario_.cell, scenario_.physics, context_.parts);
     place_heap(config_.trouble.no_parts ? SettledHeap{} : heap, cell_world);
     Observation seen = observe(scenario_, cell_world, context_, Seed{seed}, 0);
-    if (!config_.trouble.other_part.empty()) seen.truth.instances.clear();
+    if (config_.trouble.other_part) seen.truth.instances.clear();
     seen.view = troubled(std::move(seen.view), config_.trouble, Seed{seed}.child("trouble"));
     seen.view.threads = config_.threads;
     return seen;
@@ -107,7 +107,7 @@ class SceneBench {
     }
   }
 
-  bool nothing_there() const { return config_.trouble.no_parts || !config_.trouble.other_part.empty(); }
+  bool nothing_there() const { return config_.trouble.no_parts || config_.trouble.other_part; }
 
   void answer(std::size_t k, const Observation& seen, std::uint64_t seed) {
     const Contender& contender = contenders_[k];

@@ -55,7 +55,7 @@ double error_of(const ScoreFeatures& weights, std::span<const ScoreSample> sampl
   return calibration_error(reliability(scored, 10));
 }
 
-std::string left_out(std::span<const ScoreSample> samples, double ridge) {
+std::string left_out(std::span<const ScoreSample> samples, double ridge, double wrong_weight) {
   std::set<std::string> parts;
   for (const ScoreSample& s : samples) parts.insert(s.part);
   std::string text;
@@ -63,7 +63,7 @@ std::string left_out(std::span<const ScoreSample> samples, double ridge) {
     std::vector<ScoreSample> rest, out;
     for (const ScoreSample& s : samples) (s.part == part ? out : rest).push_back(s);
     if (rest.empty()) continue;
-    const ScoreFeatures weights = fit_weights(rest, ridge);
+    const ScoreFeatures weights = fit_weights(rest, ridge, wrong_weight);
     char line[160];
     std::snprintf(line, sizeof line, "  %-20s %6zu poses, %5.1f %% right: log loss %.3f, calibration error %.3f\n",
                   part.c_str(), out.size(),
@@ -124,7 +124,7 @@ double probability(const ScoreFeatures& weights, const ScoreSample& sample) {
   return 1 / (1 + std::exp(-vector_of(weights).dot(vector_of(sample.features))));
 }
 
-ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge) {
+ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge, double wrong_weight) {
   const std::vector<ScoreSample> samples = clear_ones(all);
   const Weights spread = spreads(samples);
   Weights w = Weights::Zero();  // of the features divided by their spreads
@@ -136,8 +136,9 @@ ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge) {
     for (const ScoreSample& s : samples) {
       const Weights x = vector_of(s.features).cwiseQuotient(spread);
       const double p = 1 / (1 + std::exp(-w.dot(x)));
-      gradient += (p - (s.right ? 1 : 0)) * x;
-      hessian += std::max(p * (1 - p), 1e-6) * x * x.transpose();
+      const double counts = s.right ? 1 : wrong_weight;
+      gradient += counts * (p - (s.right ? 1 : 0)) * x;
+      hessian += counts * std::max(p * (1 - p), 1e-6) * x * x.transpose();
     }
     w -= hessian.ldlt().solve(gradient);
   }
@@ -162,10 +163,10 @@ std::vector<Threshold> thresholds(const ScoreFeatures& weights, std::span<const 
   return out;
 }
 
-std::string fit_report(std::span<const ScoreSample> all, double ridge) {
+std::string fit_report(std::span<const ScoreSample> all, double ridge, double wrong_weight) {
   const std::vector<ScoreSample> samples = clear_ones(all);
   if (samples.empty()) throw SpecError("no unambiguous estimate to fit to");
-  const ScoreFeatures weights = fit_weights(samples, ridge);
+  const ScoreFeatures weights = fit_weights(samples, ridge, wrong_weight);
   std::ostringstream out;
   char line[200];
   out << "constexpr ScoreFeatures kWeights = {";
@@ -183,7 +184,7 @@ std::string fit_report(std::span<const ScoreSample> all, double ridge) {
                   100.0 * static_cast<double>(t.kept_right) / static_cast<double>(std::max<std::size_t>(1, t.right)));
     out << line;
   }
-  out << "one part left out, then judged:\n" << left_out(samples, ridge);
+  out << "one part left out, then judged:\n" << left_out(samples, ridge, wrong_weight);
   return out.str();
 }
 

@@ -24,8 +24,8 @@ std::string features_csv(std::span<const PerceptionRow> rows);
 std::vector<ScoreSample> read_features(const std::string& path);
 
 /// Minimises the mean log loss of the samples that are not ambiguous, plus ridge / 2 |w|^2 / n of the features scaled
-/// to unit spread (not of the constant).
-ScoreFeatures fit_weights(std::span<const ScoreSample> samples, double ridge);
+/// to unit spread (not of the constant). A wrong sample counts `wrong_weight` times: the prior.
+ScoreFeatures fit_weights(std::span<const ScoreSample> samples, double ridge, double wrong_weight = 1);
 
 double probability(const ScoreFeatures& weights, const ScoreSample& sample);
 
@@ -37,6 +37,6 @@ struct Threshold {
 std::vector<Threshold> thresholds(const ScoreFeatures& weights, std::span<const ScoreSample> samples);
 
 /// Weights as C++, log loss, calibration error inside and on left-out parts, thresholds.
-std::string fit_report(std::span<const ScoreSample> samples, double ridge);
+std::string fit_report(std::span<const ScoreSample> samples, double ridge, double wrong_weight = 1);
 
 }  // namespace binpick
