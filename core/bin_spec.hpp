@@ -1,4 +1,5 @@
-// The bin: an open box. Frame B: centre of the inner floor, z up.
+// The bin: an open box, its walls upright or leaning outwards, with or without dividers. Frame B: centre of the inner
+// floor, z up.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,27 +12,28 @@
 namespace binpick {
 
 struct BinSpec {
-  Eigen::Vector3d inner_size = {0.4, 0.3, 0.2};  ///< m: x, y, height of the walls
+  Eigen::Vector3d inner_size = {0.4, 0.3, 0.2};  ///< m: x and y at the floor, height of the walls
   double wall = 0.005;                           ///< m, wall and floor thickness as seen
+  double draft = 0;                              ///< rad, by which every wall leans outwards
+  std::vector<double> dividers_x, dividers_y;    ///< m: x of the dividers along y, y of those along x
+  double divider_height = 0;                     ///< m above the floor; 0: as high as the walls
+  double divider_thickness = 0.004;              ///< m
   double friction = 0.4;
   double restitution = 0.1;
 
-  void visit(ConfigVisitor& v) {
-    v.field("inner_size", inner_size, Unit::kLength, "inner length, width and height of the walls");
-    v.field("wall", wall, Unit::kLength, "thickness of walls and floor as seen (collision walls are thicker, outwards)");
-    v.field("friction", friction, Unit::kNone, "Coulomb coefficient of bin against part");
-    v.field("restitution", restitution, Unit::kNone, "restitution of bin against part");
-  }
-  void validate() const {
-    if (!(inner_size.minCoeff() > 0.01) || !(inner_size.maxCoeff() < 5))
-      throw SpecError("bin.inner_size: each edge must lie between 10 mm and 5 m");
-    if (!(wall >= 0.001) || !(wall <= 0.1)) throw SpecError("bin.wall: must lie between 1 and 100 mm");
-    if (!(friction >= 0 && friction <= 2)) throw SpecError("bin.friction: must lie between 0 and 2");
-    if (!(restitution >= 0 && restitution < 1)) throw SpecError("bin.restitution: must lie between 0 and 1");
-  }
+  void visit(ConfigVisitor& v);
+  void validate() const;
+
+  /// False for the plain box: upright walls and nothing in between.
+  bool shaped() const { return draft != 0 || !dividers_x.empty() || !dividers_y.empty(); }
+  /// Half the inner length and width at a height above the floor, m; below the floor and above the rim as there.
+  Eigen::Vector2d half_at(double z) const;
+  /// Inner length, width and height at the rim, m: what stands around everything inside.
+  Eigen::Vector3d rim_size() const;
+  double volume() const;  ///< m^3 inside up to the rim, less the dividers
 };
 
-/// Floor and four walls as boxes in B. The inner faces are exact; `thickness` goes outwards.
+/// Floor, four walls, dividers, as boxes in B. The inner faces are exact; `thickness` of floor and walls goes outwards.
 std::vector<Primitive> bin_boxes(const BinSpec& bin, double thickness);
 
 }  // namespace binpick

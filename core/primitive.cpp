@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/bin_spec.hpp"
-
 namespace binpick {
 namespace {
 
@@ -98,18 +96,6 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
   const auto offset = static_cast<Index>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
   for (const auto& t : more.triangles) mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-}
-
-std::vector<Primitive> bin_boxes(const BinSpec& bin, double thickness) {
-  const Eigen::Vector3d& s = bin.inner_size;
-  const double t = thickness, full_x = s.x() + 2 * t, full_y = s.y() + 2 * t;
-  const auto at = [](double x, double y, double z) { return Pose(Eigen::Translation3d(x, y, z)); };
-  // The long walls reach over the corners, and all walls stand on the floor plate, so that no gap is left.
-  return {Primitive::box({full_x, full_y, t}, at(0, 0, -t / 2)),
-          Primitive::box({t, full_y, s.z()}, at(s.x() / 2 + t / 2, 0, s.z() / 2)),
-          Primitive::box({t, full_y, s.z()}, at(-s.x() / 2 - t / 2, 0, s.z() / 2)),
-          Primitive::box({s.x(), t, s.z()}, at(0, s.y() / 2 + t / 2, s.z() / 2)),
-          Primitive::box({s.x(), t, s.z()}, at(0, -s.y() / 2 - t / 2, s.z() / 2))};
 }
 
 }  // namespace binpick

@@ -53,8 +53,11 @@ std::array<BinFace, kFaces> faces_of(const BinSpec& bin) {
   for (int k = 1; k < kFaces; ++k) {
     const int axis = (k - 1) / 2, other = 1 - axis;
     const double inwards = k % 2 == 1 ? 1 : -1;
-    faces[k] = {inwards * Eigen::Vector3d::Unit(axis), -half[axis], other, 2, {-half[other], 0},
-                {half[other], bin.inner_size.z()}};
+    // A wall that leans faces upwards as well, and its plane holds the edge of the floor.
+    const Eigen::Vector3d normal_B =
+        std::cos(bin.draft) * inwards * Eigen::Vector3d::Unit(axis) + std::sin(bin.draft) * Eigen::Vector3d::UnitZ();
+    faces[k] = {normal_B,          -std::cos(bin.draft) * half[axis], other, 2,
+                {-half[other], 0}, {half[other], bin.inner_size.z()}};
   }
   int first = 0;
   for (BinFace& f : faces) {

@@ -151,12 +151,12 @@ bool fits_bin(const Scene& scene, const SurfaceModel& model, const Pose& X_CP, c
   const Eigen::Isometry3f X_BP = (scene.X_CB.inverse() * X_CP).cast<float>();
   const float slack =
       static_cast<float>(config.wall_tolerance) + 2 * scene.sigma(static_cast<float>(X_CP.translation().z()));
-  const Eigen::Vector3f half = (scene.bin->inner_size / 2).cast<float>();
   const std::size_t step = std::max<std::size_t>(1, model.points().size() / 300);
   for (std::size_t i = 0; i < model.points().size(); i += step) {
     const Eigen::Vector3f p = X_BP * model.points()[i];
     if (p.z() < -slack) return false;
     const bool beside_wall = p.z() < static_cast<float>(scene.bin->inner_size.z());
+    const Eigen::Vector2f half = scene.bin->half_at(static_cast<double>(p.z())).cast<float>();
     if (beside_wall && (std::abs(p.x()) > half.x() + slack || std::abs(p.y()) > half.y() + slack)) return false;
   }
   return true;

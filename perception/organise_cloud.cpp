@@ -18,7 +18,7 @@ PointCloud in_front(const PointCloud& cloud_C, const Scene& scene) {
   const Pose X_BC = scene.X_CB.inverse();
   for (std::size_t i = 0; i < cloud_C.size(); ++i) {
     const Eigen::Vector3d& p = cloud_C.points[i];
-    if (scene.bin && ((X_BC * p).head<2>().array().abs() > scene.bin->inner_size.head<2>().array() / 2 + kAround).any())
+    if (scene.bin && ((X_BC * p).head<2>().array().abs() > scene.bin->rim_size().head<2>().array() / 2 + kAround).any())
       continue;
     if (!p.allFinite() || !(p.z() > 1e-3) || p.head<2>().cwiseAbs().maxCoeff() > kWidestSlope * p.z()) continue;
     out.points.push_back(p);

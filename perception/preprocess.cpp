@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "perception/bin_finder.hpp"
+#include "perception/bin_mask.hpp"
 #include "perception/floor_mask.hpp"
 #include "perception/floor_offset.hpp"
 #include "perception/large_planes.hpp"
@@ -85,7 +86,7 @@ void mark_wanted(Scene& scene, const PreprocessConfig& config) {
     return;
   }
   const auto f = [](double x) { return static_cast<float>(x); };
-  const Eigen::Vector3d& size = scene.bin->inner_size;
+  const Eigen::Vector3d size = scene.bin->rim_size();
   const BinBox box{f(size.x() / 2 - config.wall_margin), f(size.y() / 2 - config.wall_margin), f(scene.floor_cut),
                    f(size.z() + config.headroom)};
   const BinRays rays = bin_rays(scene.camera, scene.X_CB);
@@ -182,6 +183,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   if (scene.bin) scene.floor_cut = floor_height(scene, config, thinnest);
   mark_wanted(scene, config);
   mark_thin_parts(scene, config, thinnest);
+  if (scene.bin && scene.bin->shaped()) unmark_bin(scene, config.wall_margin);
   if (found && found->drafted) unmark_faces(scene, *found, config.wall_margin);
   if (frame) {
     estimate_normals(scene, normals);

@@ -21,7 +21,7 @@ PixelBox within(const PixelBox& box, const PinholeCamera& camera) {
 /// The projection of the bin's eight corners; false when one is behind the camera.
 bool project_bin(const PinholeCamera& camera, const BinSpec& bin, const Pose& X_CB, double margin, PixelBox& box) {
   for (int corner = 0; corner < 8; ++corner) {
-    const double x = bin.inner_size.x() / 2 + margin, y = bin.inner_size.y() / 2 + margin;
+    const double x = bin.rim_size().x() / 2 + margin, y = bin.rim_size().y() / 2 + margin;
     const Eigen::Vector3d p_B(corner & 1 ? x : -x, corner & 2 ? y : -y,
                               corner & 4 ? bin.inner_size.z() + margin : -margin);
     const Eigen::Vector3d p_C = X_CB * p_B;
@@ -54,7 +54,7 @@ PixelBox pixels_of_bin(const DepthFrame& frame, const BinSpec& bin, const Pose& 
   if (!project_bin(frame.camera, bin, X_CB, margin, box)) return {0, 0, width, height};
   const BinRays rays = bin_rays(frame.camera, X_CB);
   const auto f = [](double x) { return static_cast<float>(x); };
-  const BinBox above{f(bin.inner_size.x() / 2), f(bin.inner_size.y() / 2), f(bin.inner_size.z()),
+  const BinBox above{f(bin.rim_size().x() / 2), f(bin.rim_size().y() / 2), f(bin.inner_size.z()),
                      f(bin.inner_size.z() + headroom)};
   for (int v = 0; v < height; ++v) {
     int first = 0, last = 0;

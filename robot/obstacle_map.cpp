@@ -36,8 +36,9 @@ std::vector<Eigen::Vector3d> thinned(std::vector<Voxel>& voxels, int least) {
 
 /// Inside the bin's opening and clear of floor and walls.
 bool in_bin(const BinSpec& bin, const Eigen::Vector3d& p_B, double skin) {
-  return std::abs(p_B.x()) < bin.inner_size.x() / 2 - skin && std::abs(p_B.y()) < bin.inner_size.y() / 2 - skin &&
-         p_B.z() > skin && p_B.z() < bin.inner_size.z() + kOverRim;
+  const Eigen::Vector2d half = bin.half_at(p_B.z());
+  return std::abs(p_B.x()) < half.x() - skin && std::abs(p_B.y()) < half.y() - skin && p_B.z() > skin &&
+         p_B.z() < bin.inner_size.z() + kOverRim;
 }
 
 }  // namespace

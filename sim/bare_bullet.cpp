@@ -4,6 +4,7 @@
 
 #include "core/check.hpp"
 #include "sim/heap_dynamics.hpp"
+#include "sim/heap_solver.hpp"
 #include "sim/world_impl.hpp"
 
 namespace binpick {
@@ -170,7 +171,7 @@ struct BareBullet::Impl : World::Impl::Observer {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
+  HeapSolver solver;
   std::unique_ptr<btDiscreteDynamicsWorld> world;
   std::map<const World::Impl::Geometry*, Shape> shapes;  ///< looked up only: its order decides nothing
   std::vector<Twin> twins;

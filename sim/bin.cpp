@@ -10,7 +10,7 @@ BodyId add_bin(World& world, const BinSpec& bin, const Pose& X_WB) {
 
 BodyId add_guard_walls(World& world, const BinSpec& bin, const Pose& X_WB, double top) {
   const double rim = bin.inner_size.z(), height = top - rim, z = rim + height / 2;
-  const double x = bin.inner_size.x(), y = bin.inner_size.y(), t = kThickWall;
+  const double x = bin.rim_size().x(), y = bin.rim_size().y(), t = kThickWall;
   const auto at = [](double px, double py, double pz) { return Pose(Eigen::Translation3d(px, py, pz)); };
   const std::vector<Primitive> walls = {Primitive::box({t, y + 2 * t, height}, at(x / 2 + t / 2, 0, z)),
                                         Primitive::box({t, y + 2 * t, height}, at(-x / 2 - t / 2, 0, z)),
@@ -21,8 +21,9 @@ BodyId add_guard_walls(World& world, const BinSpec& bin, const Pose& X_WB, doubl
 
 bool inside_bin(const BinSpec& bin, const Pose& X_WB, const Eigen::Vector3d& p_W, double above_rim) {
   const Eigen::Vector3d p_B = X_WB.inverse() * p_W;
-  return std::abs(p_B.x()) <= bin.inner_size.x() / 2 && std::abs(p_B.y()) <= bin.inner_size.y() / 2 &&
-         p_B.z() >= -0.01 && p_B.z() <= bin.inner_size.z() + above_rim;
+  const Eigen::Vector2d half = bin.half_at(p_B.z());
+  return std::abs(p_B.x()) <= half.x() && std::abs(p_B.y()) <= half.y() && p_B.z() >= -0.01 &&
+         p_B.z() <= bin.inner_size.z() + above_rim;
 }
 
 }  // namespace binpick

@@ -7,8 +7,23 @@
 namespace binpick {
 
 void HeapDynamics::solveConstraints(btContactSolverInfo& info) {
+  if (last_step_ > 0 && last_step_ != info.m_timeStep) scale_impulses(info.m_timeStep / last_step_);
+  last_step_ = info.m_timeStep;
   gather_rolling_friction();
   btDiscreteDynamicsWorld::solveConstraints(info);
+}
+
+/// The solver starts from the last step's impulses, and a load's impulse is as long as the step.
+void HeapDynamics::scale_impulses(btScalar factor) {
+  for (int m = 0; m < getDispatcher()->getNumManifolds(); ++m) {
+    btPersistentManifold& manifold = *getDispatcher()->getManifoldByIndexInternal(m);
+    for (int c = 0; c < manifold.getNumContacts(); ++c) {
+      btManifoldPoint& point = manifold.getContactPoint(c);
+      point.m_appliedImpulse *= factor;
+      point.m_appliedImpulseLateral1 *= factor;
+      point.m_appliedImpulseLateral2 *= factor;
+    }
+  }
 }
 
 void HeapDynamics::gather_rolling_friction() {

@@ -26,8 +26,10 @@ class HeapDynamics : public btDiscreteDynamicsWorld {
     btScalar total = 0;  ///< N s, of all points in the last step
   };
   void gather_rolling_friction();
+  void scale_impulses(btScalar factor);
 
   std::map<std::pair<int, int>, Load> loads_;  ///< by user index of the bodies
+  btScalar last_step_ = 0;                     ///< s
 };
 
 }  // namespace binpick

@@ -24,7 +24,7 @@ struct PhysicsConfig {
   double coarse_step = 1.0 / 240;    ///< s
   double fast_speed = 0.3;           ///< m/s: |v| + |w| R above which a part is fast
   int fine_iterations = 15;          ///< of the contact solver, in a fine step
-  int coarse_iterations = 250;       ///< in a coarse step
+  int coarse_iterations = 150;       ///< in a coarse step
   int iterations = 50;               ///< in a step of a stated length: in lockstep with the arm
   double margin = 0.2e-3;            ///< m, collision margin, planes inset by it
   double contact_threshold = 2e-3;   ///< m

@@ -34,7 +34,7 @@ std::vector<int> dropped_counts(const Scenario& scenario, const std::vector<Part
     volume += counts.back() * parts[i].mass.volume;
   }
   if (scenario.drop.fill == 0) return counts;
-  const double factor = scenario.drop.fill * scenario.cell.bin.inner_size.prod() / volume;
+  const double factor = scenario.drop.fill * scenario.cell.bin.volume() / volume;
   double total = 0;
   for (int& count : counts) {
     total += std::round(count * factor);

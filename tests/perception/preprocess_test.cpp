@@ -168,6 +168,24 @@ TEST(Preprocess, RemovesFloorAndWallsButNotThePartLyingFlat) {
   EXPECT_EQ(wanted, photo.instances[0].visible_pixels);  // its top face and nothing else
 }
 
+TEST(Preprocess, RemovesLeaningWallsAndDividersButNotThePartsBeside) {
+  HeapOptions options;
+  options.noise = false;
+  options.draft = 0.12;
+  options.dividers_x = {-0.05};
+  const Part plate = part_from("plate", mesh_of(Primitive::box({0.08, 0.05, 0.006})), {});
+  // One lies flat on the floor, one high beside the rim, over no floor.
+  const std::vector<Instance> places = {
+      {0, pose_from(Eigen::Matrix3d::Identity(), {0.03, 0.02, 0.003}), 0, 0},
+      {0, pose_from(Eigen::Matrix3d::Identity(), {0.165, -0.1, 0.18}), 0, 0},
+  };
+  const HeapScene photo = photograph(plate, places, options, Seed{1}, camera_above(0.6));
+  const Scene scene = make_scene(photo.view, PreprocessConfig(), NormalsConfig(), 0.006);
+  int wanted = 0;
+  for (std::size_t i = 0; i < scene.wanted.size(); ++i) wanted += scene.wanted[i];
+  EXPECT_EQ(wanted, photo.instances[0].visible_pixels + photo.instances[1].visible_pixels);
+}
+
 TEST(FloorOffset, IsReadOffTheVisibleFloor) {
   for (const double bias_px : {-0.25, 0.0, 0.25})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -38,6 +38,8 @@ struct HeapScene {
 struct HeapOptions {
   int count = 10;
   Eigen::Vector3d bin_size = {0.4, 0.3, 0.2};
+  double draft = 0;                ///< rad
+  std::vector<double> dividers_x;  ///< m
   double camera_height = 0.6;
   double upright_share = 0.35;  ///< of parts with any orientation; the others lie within some 15 degrees of flat
   bool noise = true;
@@ -233,6 +235,8 @@ inline HeapScene photograph(const Part& part, std::vector<Instance> heap, const 
   scene.instances = std::move(heap);
   BinSpec bin;
   bin.inner_size = options.bin_size;
+  bin.draft = options.draft;
+  bin.dividers_x = options.dividers_x;
   const DepthIds drawn = draw_heap(part, scene.instances, scene.frame.camera, X_WC.inverse(), bin);
   scene.frame.depth = drawn.depth;
   scene.frame.X_WC = X_WC;

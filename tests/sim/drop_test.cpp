@@ -105,5 +105,31 @@ TEST(Drop, BoxesOfAnyShapeRest) {
   }
 }
 
+TEST(Drop, PartsLieBetweenLeaningWallsAndDividers) {
+  BinSpec tote;
+  tote.inner_size = {0.4, 0.3, 0.15};
+  tote.draft = 0.15;
+  tote.dividers_x = {0.02};
+  tote.divider_height = 0.1;
+  const Part part = example::box({0.07, 0.05, 0.03});
+  const SolidProbe probe = probe_of(part);
+  const std::vector<Primitive> boxes = bin_boxes(tote, kThickWall);
+  int left = 0, over_the_floor = 0;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const Heap heap = dropped(part, 16, Seed{seed}, tote);
+    EXPECT_TRUE(heap.result.settled && heap.result.escaped.empty()) << "seed " << seed;
+    for (const Pose& X_WP : heap.poses) {
+      const Pose X_BP = Pose(Eigen::Translation3d(0.5, 0.1, 0.02)).inverse() * X_WP;
+      EXPECT_LT(probe.deepest_in(boxes, X_BP), 0.5e-3) << "seed " << seed;
+      left += X_BP.translation().x() < 0.02;
+      const Eigen::Vector2d beyond = X_BP.translation().head<2>().cwiseAbs() - tote.half_at(0);
+      over_the_floor += beyond.maxCoeff() < -0.02;
+    }
+  }
+  EXPECT_GT(left, 8);
+  EXPECT_LT(left, 24);
+  EXPECT_LT(over_the_floor, 32);  // some lie on a leaning wall
+}
+
 }  // namespace
 }  // namespace binpick
