@@ -109,7 +109,7 @@ TEST(World, PartsRestAtTheMeshExactHeight) {
     SettleConfig config;
     ASSERT_TRUE(settle(world, config)) << part.name;
     EXPECT_NEAR(world.pose(body).translation().z(), -bottom, 0.2e-3) << part.name;
-    EXPECT_LT(angle_between(world.pose(body).linear(), Eigen::Matrix3d::Identity()), 0.005) << part.name;
+    EXPECT_GT(world.pose(body).linear()(2, 2), std::cos(0.005)) << part.name;  // flat; it may have turned
     EXPECT_FALSE(world.awake(body));
     EXPECT_LT(world.deepest_contact(), 0.1e-3);
   }

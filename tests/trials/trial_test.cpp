@@ -66,7 +66,7 @@ TEST_P(SceneTest, TheRealEstimatorFindsAndPicks) {
   Loaded& scene = loaded(GetParam(), "real");
   std::size_t visible = 0, found = 0, counted = 0, right = 0;
   int picked = 0, picks = 0;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {  // a pile can fail as a whole
     const TrialRecord record = run_trial(scene.scenario, Seed{seed}, scene.context);
     ASSERT_TRUE(record.error.empty()) << record.error << " seed " << seed;
     for (const PickRecord& pick : record.picks) {
