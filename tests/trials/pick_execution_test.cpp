@@ -35,18 +35,21 @@ Pose down_at(const Eigen::Vector3d& p_W) {
 }
 
 /// A flat box of 50 x 50 x 16 mm.
+Part plate_of(double friction) {
+  Part made;
+  made.name = "plate";
+  made.friction = friction;
+  made.mesh_P = mesh_of(Primitive::box({0.05, 0.05, 0.016}));
+  made.envelope_P = made.mesh_P;
+  made.pieces_P = {made.mesh_P};
+  made.density = 1000;
+  made.mass = mass_properties(made.mesh_P, made.density);
+  made.diameter = mesh_diameter(made.mesh_P);
+  return made;
+}
+
 const Part& plate() {
-  static const Part part = [] {
-    Part made;
-    made.name = "plate";
-    made.mesh_P = mesh_of(Primitive::box({0.05, 0.05, 0.016}));
-    made.envelope_P = made.mesh_P;
-    made.pieces_P = {made.mesh_P};
-    made.density = 1000;
-    made.mass = mass_properties(made.mesh_P, made.density);
-    made.diameter = mesh_diameter(made.mesh_P);
-    return made;
-  }();
+  static const Part part = plate_of(0.4);
   return part;
 }
 
@@ -289,6 +292,38 @@ TEST(PickExecution, TwoPartsAtOnceAreADoublePick) {
   expect_ended(site, result, PickOutcome::kDoublePick);
   EXPECT_EQ(result.neighbours_dragged, 1);
   EXPECT_EQ(result.parts_dropped_back, 0);
+}
+
+/// One plate lies across another's edge; a cup lifts the lower one where it is free.
+ExecutionResult lift_from_below(const Part& part, double overlap, Eigen::Vector3d* other_at) {
+  Site site("mz07_one_cup.yaml", "{type: suction, cups: [{radius: 8 mm}]}", part);
+  site.lay({0, 0, 0});
+  site.lay({0.05 - overlap, 0, 0.0161});
+  site.start();
+  const Eigen::Vector3d contact = site.cell_world.box_center(0) + Eigen::Vector3d(-0.015, 0, 0.008);
+  const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(contact), ExecutionConfig{});
+  *other_at = site.cell.X_WB.inverse() * site.cell_world.box_center(1);
+  return result;
+}
+
+TEST(PickExecution, WhatSlidesOffTheLiftedPartIsDroppedBack) {
+  Eigen::Vector3d other_B;
+  const ExecutionResult result = lift_from_below(plate_of(0.3), 0.026, &other_B);
+  EXPECT_EQ(result.outcome, PickOutcome::kSucceeded) << result.reason;
+  EXPECT_EQ(result.neighbours_dragged, 1);
+  EXPECT_EQ(result.parts_dropped_back, 1);
+  EXPECT_EQ(result.parts_lost, 0);
+  EXPECT_NEAR(other_B.z(), 0.008, 0.5e-3) << "it lies flat on the bin's floor";
+}
+
+TEST(PickExecution, WhatRidesAlongAndFallsOnTheTableIsLost) {
+  Eigen::Vector3d other_B;
+  const ExecutionResult result = lift_from_below(plate_of(2.0), 0.029, &other_B);
+  EXPECT_EQ(result.outcome, PickOutcome::kDoublePick);
+  EXPECT_EQ(result.neighbours_dragged, 1);
+  EXPECT_EQ(result.parts_dropped_back, 0);
+  EXPECT_EQ(result.parts_lost, 1);
+  EXPECT_GT(other_B.head<2>().cwiseAbs().cwiseQuotient(Eigen::Vector2d(0.2, 0.15)).maxCoeff(), 1) << "outside the bin";
 }
 
 }  // namespace
