@@ -10,6 +10,7 @@
 #include "core/isolated.hpp"
 #include "core/mesh_bytes.hpp"
 #include "core/mesh_import.hpp"
+#include "core/primitive.hpp"
 
 namespace binpick {
 namespace {
@@ -25,14 +26,7 @@ std::string extension_of(const std::string& path) {
 
 TriangleMesh merged(const std::vector<TriangleMesh>& objects) {
   TriangleMesh mesh;
-  for (const TriangleMesh& object : objects) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), object.vertices.begin(), object.vertices.end());
-    for (auto triangle : object.triangles) {
-      for (auto& corner : triangle) corner += first;
-      mesh.triangles.push_back(triangle);
-    }
-  }
+  for (const TriangleMesh& object : objects) append(mesh, object);
   return mesh;
 }
 
