@@ -6,9 +6,11 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "robot/inverse_kinematics.hpp"
 #include "robot_fixture.hpp"
@@ -61,6 +63,13 @@ inline double least_gain(const Arm& arm, const Vector6d& q) {
         log_so3(X_2.linear() * X_1.linear().transpose()) / (2 * kStep);
   }
   return J.jacobiSvd().singularValues()[5];
+}
+
+inline std::vector<ForeignArm> closed_form_arms() {
+  std::vector<ForeignArm> arms;
+  std::copy_if(std::begin(kArms), std::end(kArms), std::back_inserter(arms),
+               [](const ForeignArm& arm) { return arm.closed_form; });
+  return arms;
 }
 
 /// One test for each of the arms.
