@@ -44,10 +44,11 @@ PoseEstimate to_estimate(const Candidate& c, const PreparedPart& part) {
   return e;
 }
 
-/// Of every pixel, how many poses explain it.
 void add_explained(const Candidate& c, int by, std::vector<std::uint8_t>& times) {
   for (const std::uint32_t i : c.check.explained) times[i] = static_cast<std::uint8_t>(times[i] + by);
 }
+
+/// Of every pixel, how many of the counted poses explain it.
 std::vector<std::uint8_t> times_explained(const Scene& scene, const std::vector<Candidate>& poses,
                                           const std::vector<char>& counted) {
   std::vector<std::uint8_t> times(scene.depth.size(), 0);
