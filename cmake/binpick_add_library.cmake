@@ -35,3 +35,15 @@ function(binpick_add_tests folder)
     add_dependencies(sanitized_tests ${folder}_tests)
   endif()
 endfunction()
+
+# binpick_add_sanitized_tests(<name> SOURCES <file>... [DEPS <target>...]): under the sanitizers, only these files of a
+# folder whose other tests would take too long there, in an executable of their own.
+function(binpick_add_sanitized_tests name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name}_tests ${ARG_SOURCES})
+  target_link_libraries(${name}_tests PRIVATE binpick_flags ${ARG_DEPS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name}_tests PRIVATE BINPICK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${name} COMMAND ${name}_tests)
+  set_tests_properties(${name} PROPERTIES LABELS "unit;sanitized" ENVIRONMENT BINPICK_CACHE=off)
+  add_dependencies(sanitized_tests ${name}_tests)
+endfunction()

@@ -194,5 +194,31 @@ TEST_F(Storage, AFolderThatCannotBeMadeEndsWithSix) {
       6);
 }
 
+TEST(BadValidate, IsOneLineAndItsExitCode) {
+  const TemporaryFolder folder;
+  write_file(folder.path("file"), "");
+  const struct {
+    std::string arguments;
+    int code;
+    const char* said;
+  } cases[] = {{"validate", 2, "subject"},
+               {"validate sensor", 2, "sensor"},
+               {"validate sensors --seeds 3", 2, "A:B"},
+               {"validate sensors --seeds 0:2000", 2, "1000"},
+               {"validate sensors --threads 0", 2, "threads"},
+               {"validate sensors --quick --json " + folder.path("file/v.json"), 6, "file/v.json"},
+               {"validate sensors --quick --json " + folder.path("no/v.json"), 6, "no/v.json"},
+               {"validate sensors --quick --plots " + folder.path("file/plots"), 6, "file/plots"}};
+  for (const auto& c : cases) {
+    const ProgramRun run = run_program(c.arguments);
+    EXPECT_EQ(run.code, c.code) << c.arguments << "\n" << run.err;
+    EXPECT_THAT(run.err, HasSubstr(c.said)) << c.arguments;
+    EXPECT_TRUE(run.out.empty()) << c.arguments;
+    if (c.code == 6) {
+      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace binpick

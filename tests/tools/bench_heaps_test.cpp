@@ -1,4 +1,5 @@
-// binpick bench heaps: the heaps are the trials' own, to the bit, whoever makes them; and a heap that is no heap is told.
+// binpick bench heaps: the heaps are the trials' own, to the bit, whoever makes them; and a heap that is no heap is
+// told.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
