@@ -1,6 +1,7 @@
 #include "evaluation/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@ Interval wilson_interval(std::size_t hits, std::size_t total, double confidence)
   BP_CHECK(confidence > 0 && confidence < 1, "confidence " << confidence);
   if (total == 0) return {0, 1};
   // Wilson 1927: the p for which the observed share is z standard errors away.
-  const double z = boost::math::quantile(boost::math::normal(), 0.5 + confidence / 2);
+  const double z = normal_quantile(0.5 + confidence / 2);
   const double n = static_cast<double>(total), p = static_cast<double>(hits) / n;
   const double middle = p + z * z / (2 * n);
   const double spread = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
@@ -24,8 +25,43 @@ Interval wilson_interval(std::size_t hits, std::size_t total, double confidence)
           hits == total ? 1.0 : std::min(1.0, (middle + spread) / scale)};
 }
 
-Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples, double confidence) {
+Interval clopper_pearson(std::size_t hits, std::size_t total, double confidence) {
+  BP_CHECK(hits <= total, hits << " of " << total);
+  BP_CHECK(confidence > 0 && confidence < 1, "confidence " << confidence);
+  if (total == 0) return {0, 1};
+  using Binomial = boost::math::binomial_distribution<>;
+  const double n = static_cast<double>(total), k = static_cast<double>(hits), tail = (1 - confidence) / 2;
+  return {hits == 0 ? 0.0 : Binomial::find_lower_bound_on_p(n, k, tail),
+          hits == total ? 1.0 : Binomial::find_upper_bound_on_p(n, k, tail)};
+}
+
+double binomial_at_least(std::size_t hits, std::size_t total, double p) {
+  BP_CHECK(p >= 0 && p <= 1, "p " << p);
+  if (hits == 0) return 1;
+  if (hits > total) return 0;
+  const boost::math::binomial_distribution<> binomial(static_cast<double>(total), p);
+  return boost::math::cdf(boost::math::complement(binomial, static_cast<double>(hits - 1)));
+}
+
+double normal_quantile(double p) {
+  BP_CHECK(p > 0 && p < 1, "p " << p);
+  return boost::math::quantile(boost::math::normal(), p);
+}
+
+std::vector<double> bootstrap(std::size_t units, Seed seed, int resamples,
+                              const std::function<double(std::span<const std::size_t>)>& statistic) {
   BP_CHECK(resamples > 0, "resamples " << resamples);
+  std::vector<double> values;
+  std::vector<std::size_t> drawn(units);
+  for (int i = 0; i < resamples; ++i) {
+    Rng rng = seed.child("resample", static_cast<std::uint64_t>(i)).rng();
+    for (std::size_t& unit : drawn) unit = rng.below(units);
+    values.push_back(statistic(drawn));
+  }
+  return values;
+}
+
+Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples, double confidence) {
   std::vector<ClusterCount> counted;  // a pile that asked nothing says nothing
   ClusterCount pooled;
   for (const ClusterCount& pile : piles) {
@@ -39,17 +75,14 @@ Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int r
     return wilson_interval(static_cast<std::size_t>(std::llround(pooled.hits)),
                            static_cast<std::size_t>(std::llround(pooled.total)), confidence);
   }
-  std::vector<double> rates;
-  for (int i = 0; i < resamples; ++i) {
-    Rng rng = seed.child("resample", static_cast<std::uint64_t>(i)).rng();
-    ClusterCount drawn;
-    for (std::size_t k = 0; k < counted.size(); ++k) {
-      const ClusterCount& pile = counted[rng.below(counted.size())];
-      drawn.hits += pile.hits;
-      drawn.total += pile.total;
+  const std::vector<double> rates = bootstrap(counted.size(), seed, resamples, [&](std::span<const std::size_t> drawn) {
+    ClusterCount sum;
+    for (const std::size_t k : drawn) {
+      sum.hits += counted[k].hits;
+      sum.total += counted[k].total;
     }
-    rates.push_back(drawn.hits / drawn.total);
-  }
+    return sum.hits / sum.total;
+  });
   return {quantile(rates, (1 - confidence) / 2), quantile(rates, (1 + confidence) / 2)};
 }
 

@@ -18,6 +18,15 @@ struct Interval {
 /// Wilson score interval of hits / total; [0, 1] when total is 0.
 Interval wilson_interval(std::size_t hits, std::size_t total, double confidence = 0.95);
 
+/// Clopper and Pearson's exact interval, which holds at least `confidence` whatever the rate; [0, 1] when total is 0.
+Interval clopper_pearson(std::size_t hits, std::size_t total, double confidence = 0.95);
+
+/// P(X >= hits) for X binomial of `total` trials at rate p.
+double binomial_at_least(std::size_t hits, std::size_t total, double p);
+
+/// Standard normal: the z with P(Z < z) = p, p in (0, 1).
+double normal_quantile(double p);
+
 /// Hits and trials of one pile.
 struct ClusterCount {
   double hits = 0;
@@ -25,7 +34,12 @@ struct ClusterCount {
 };
 /// Percentile bootstrap of sum(hits) / sum(total) over whole piles. With fewer than two piles, or when every pile
 /// agrees (all hits or none), it falls back to the Wilson interval of the pooled counts, which is then the honest one.
-Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples = 4000, double confidence = 0.95);
+Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples = 4000,
+                           double confidence = 0.95);
+
+/// The statistic of `resamples` resamples of the units 0 .. units-1, drawn with replacement.
+std::vector<double> bootstrap(std::size_t units, Seed seed, int resamples,
+                              const std::function<double(std::span<const std::size_t> drawn)>& statistic);
 
 /// Linear interpolation between order statistics (type 7); NaN for an empty sample.
 double quantile(std::vector<double> values, double q);

@@ -34,6 +34,36 @@ TEST(Wilson, NarrowsWithTheSample) {
   EXPECT_GT(wilson_interval(95, 100, 0.99).high, wilson_interval(95, 100).high);
 }
 
+// Clopper and Pearson 1934. The paper's 48 of 50: 86.3 to 99.5 %; 95 of 100: 88.7 to 98.4 %; 950 of 1000: 93.5 to 96.3
+// %. No failure in n: the lower bound b solves b^n = 2.5 %.
+TEST(ClopperPearson, PublishedAndByHand) {
+  EXPECT_NEAR(clopper_pearson(48, 50).low, 0.863, 0.0005);
+  EXPECT_NEAR(clopper_pearson(48, 50).high, 0.995, 0.0005);
+  EXPECT_NEAR(clopper_pearson(95, 100).low, 0.887, 0.0005);
+  EXPECT_NEAR(clopper_pearson(95, 100).high, 0.984, 0.0005);
+  EXPECT_NEAR(clopper_pearson(950, 1000).high, 0.963, 0.0005);
+  EXPECT_NEAR(clopper_pearson(30, 30).low, std::pow(0.025, 1.0 / 30), 1e-12);
+  EXPECT_EQ(clopper_pearson(30, 30).high, 1);
+  EXPECT_EQ(clopper_pearson(0, 30).low, 0);
+  EXPECT_EQ(clopper_pearson(0, 0).high, 1);
+}
+
+// "Zero failures in n": less than 1 % at 95 % one-sided needs 299, less than 0.1 % needs 2,995.
+TEST(ClopperPearson, ZeroFailures) {
+  EXPECT_LT(clopper_pearson(0, 299, 0.90).high, 0.01);
+  EXPECT_GT(clopper_pearson(0, 298, 0.90).high, 0.01);
+  EXPECT_LT(clopper_pearson(0, 2995, 0.90).high, 0.001);
+  EXPECT_GT(clopper_pearson(0, 2994, 0.90).high, 0.001);
+}
+
+TEST(Binomial, ByHand) {
+  EXPECT_DOUBLE_EQ(binomial_at_least(2, 3, 0.5), 0.5);
+  EXPECT_NEAR(binomial_at_least(3, 3, 0.1), 0.001, 1e-15);
+  EXPECT_EQ(binomial_at_least(0, 3, 0.1), 1);
+  EXPECT_EQ(binomial_at_least(4, 3, 0.9), 0);
+  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
+}
+
 TEST(Quantile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2);
   EXPECT_EQ(quantile({4, 1, 2, 3}, 0.5), 2.5);
