@@ -20,6 +20,8 @@ if(BINPICK_WITH_SIM)
   endif()
   find_library(BINPICK_PCL_REGISTRATION NAMES pcl_registration)
 
+  pkg_check_modules(TINYXML2 REQUIRED IMPORTED_TARGET tinyxml2)
+
   pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
 
   find_path(KDL_INCLUDE_DIR kdl/chain.hpp REQUIRED)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/hash.hpp"
+#include "evaluation/pile_figures.hpp"
 
 namespace binpick {
 namespace {
@@ -54,30 +55,23 @@ std::function<Count(const TrialRecord&)> over_looks(const std::function<Count(co
   };
 }
 
-Count count_picks(const TrialRecord& record) {
-  Count count;
-  for (const PickRecord& pick : record.picks) {
-    if (pick.outcome == PickOutcome::kBinEmpty) continue;
-    ++count.total;
-    if (pick.outcome == PickOutcome::kSucceeded) ++count.hits;
-  }
-  return count;
-}
-
-Count count_first_look(const TrialRecord& record) {
-  if (record.picks.empty()) return {};
-  return {record.picks.front().check.found, record.picks.front().check.visible};
+/// The counts that a comparison uses too.
+std::function<Count(const TrialRecord&)> whole(ClusterCount (*count)(const TrialRecord&)) {
+  return [count](const TrialRecord& record) {
+    const ClusterCount pile = count(record);
+    return Count{static_cast<std::size_t>(pile.hits), static_cast<std::size_t>(pile.total)};
+  };
 }
 
 void add_rates(const Records& records, CampaignSummary& summary) {
   summary.cleared = rate_of(records, "cleared", [](const TrialRecord& record) {
     return Count{static_cast<std::size_t>(record.placed), static_cast<std::size_t>(record.dropped)};
   });
-  summary.picks = rate_of(records, "picks", count_picks);
+  summary.picks = rate_of(records, "picks", whole(count_picks));
   using Check = const PoseCheck&;
   summary.recall = rate_of(records, "recall", over_looks([](Check c) { return Count{c.found, c.visible}; }));
   summary.precision = rate_of(records, "precision", over_looks([](Check c) { return Count{c.right, c.counted}; }));
-  summary.recall_first_look = rate_of(records, "recall_first_look", count_first_look);
+  summary.recall_first_look = rate_of(records, "recall_first_look", whole(count_first_look));
   summary.recall_tight = rate_of(records, "recall_tight", over_looks([](Check c) {
                                    return Count{c.found_tight, c.visible};
                                  }));

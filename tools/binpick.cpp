@@ -1,5 +1,6 @@
 // binpick: one program, one file per subcommand. Standard output carries the result, standard error the talk.
-// Exit codes: 0 done, 2 bad usage or input, 5 crash, 6 storage, 7 bits differ, 130 interrupted.
+// Exit codes: 0 done, 1 worse than the base, 2 bad usage or input, 3 inconclusive, 5 crash, 6 storage, 7 bits differ,
+// 130 interrupted.
 
 #include <signal.h>
 
@@ -20,8 +21,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "binpick 0.1.0");
   std::vector<std::pair<CLI::App*, Action>> commands;
-  for (Action (*add)(CLI::App&) : {add_trial, add_campaign, add_report, add_estimate, add_render, add_validate,
-                                   add_bench, add_check, add_part, add_list, add_worker}) {
+  for (Action (*add)(CLI::App&) : {add_trial, add_campaign, add_report, add_compare, add_estimate, add_render,
+                                   add_validate, add_bench, add_check, add_part, add_list, add_worker}) {
     Action action = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), std::move(action));
   }
