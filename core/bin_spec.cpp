@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/bin_mesh.hpp"
+
 namespace binpick {
 namespace {
 
@@ -39,6 +41,10 @@ void BinSpec::visit(ConfigVisitor& v) {
   v.field("divider_thickness", divider_thickness, Unit::kLength, "of the dividers");
   v.field("friction", friction, Unit::kNone, "Coulomb coefficient of bin against part");
   v.field("restitution", restitution, Unit::kNone, "restitution of bin against part");
+  if (v.reading() || !mesh.empty()) {
+    v.path("mesh", mesh, "closed CAD mesh that is the bin, in its frame; the keys above say where floor and walls are");
+    v.choice("mesh_unit", mesh_unit, {"", "mm", "cm", "m", "inch"}, "of STL, OBJ, PLY; empty: mm (STEP has its own)");
+  }
 }
 
 void BinSpec::validate() const {
@@ -52,8 +58,22 @@ void BinSpec::validate() const {
     throw SpecError("bin.divider_thickness: must lie between 2 and 100 mm");
   require_dividers(dividers_x, inner_size.x(), divider_thickness, "dividers_x");
   require_dividers(dividers_y, inner_size.y(), divider_thickness, "dividers_y");
+  if (!mesh.empty() && (!dividers_x.empty() || !dividers_y.empty()))
+    throw SpecError("bin.mesh: dividers are part of the mesh; dividers_x and dividers_y go without one");
   if (!(friction >= 0 && friction <= 2)) throw SpecError("bin.friction: must lie between 0 and 2");
   if (!(restitution >= 0 && restitution < 1)) throw SpecError("bin.restitution: must lie between 0 and 1");
+}
+
+void BinSpec::load() {
+  if (!mesh.empty() && !solid) solid = std::make_shared<const BinMesh>(read_bin_mesh(*this));
+}
+
+BinSpec BinSpec::plain() const {
+  BinSpec box = *this;
+  box.dividers_x.clear(), box.dividers_y.clear();
+  box.mesh.clear(), box.mesh_unit.clear();
+  box.solid.reset(), box.pieces_B.reset();
+  return box;
 }
 
 Eigen::Vector2d BinSpec::half_at(double z) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/bin_mesh.hpp"
+
 namespace binpick {
 namespace {
 
@@ -21,10 +23,18 @@ std::vector<Slab> walls_of(const Scene& scene, double margin) {
   return slabs;
 }
 
+/// On the mesh of a bin from CAD; where that is floor, the floor's own cut decides.
+bool on_mesh(const BinMesh& bin, const Eigen::Vector3d& p_B, double margin) {
+  const auto hit = bin.surface.closest(p_B, margin);
+  return hit && hit->point.z() > margin;
+}
+
 }  // namespace
 
 void unmark_bin(Scene& scene, double margin) {
   const std::vector<Slab> slabs = walls_of(scene, margin);
+  const BinMesh* mesh = scene.bin->solid.get();
+  const Pose X_BC = scene.X_CB.inverse();
   for (int v = 0; v < scene.depth.height(); ++v)
     for (int u = 0; u < scene.depth.width(); ++u) {
       if (!scene.wanted(u, v)) continue;
@@ -32,6 +42,7 @@ void unmark_bin(Scene& scene, double margin) {
       scene.wanted(u, v) = std::none_of(slabs.begin(), slabs.end(), [&](const Slab& slab) {
         return ((slab.X_SC * p_C).array().abs() < slab.half.array()).all();
       });
+      if (mesh && scene.wanted(u, v)) scene.wanted(u, v) = !on_mesh(*mesh, X_BC * p_C, margin);
     }
 }
 

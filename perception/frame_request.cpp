@@ -123,6 +123,7 @@ RecordedFrame read_frame_folder(const std::string& folder) {
     frame.request.visit(v);
     frame.request.validate();
   });
+  frame.request.bin.load();
   if (std::filesystem::exists(folder + "/" + kCloudFile)) {
     frame.view.seen = read_cloud_ply(folder + "/" + kCloudFile);
     frame.view.cloud_noise = frame.request.noise;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/bin_mesh.hpp"
 #include "core/check.hpp"
 #include "core/error.hpp"
 #include "core/yaml.hpp"
@@ -107,6 +108,7 @@ void Cell::visit(ConfigVisitor& v) {
 
 void Cell::finish() {
   if (arm_path.empty()) throw SpecError("cell.arm: the path of the arm's URDF is missing");
+  bin.load();
   arm = std::make_shared<const Arm>(Arm::load(ArmSource{arm_path, arm_packages, arm_tip}));
   if (!gripper) gripper = make_gripper(gripper_type);
   gripper->validate();
@@ -150,6 +152,7 @@ std::vector<Primitive> Cell::tray_W() const {
 
 std::vector<Primitive> Cell::bin_W() const {
   std::vector<Primitive> boxes = bin_boxes(bin, bin.wall);
+  if (bin.solid) boxes.insert(boxes.end(), bin.solid->beyond_plain.begin(), bin.solid->beyond_plain.end());
   for (Primitive& wall : boxes) wall.X_OS = X_WB * wall.X_OS;
   return boxes;
 }

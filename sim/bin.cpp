@@ -2,10 +2,36 @@
 
 #include <cmath>
 
+#include "core/bin_mesh.hpp"
+#include "sim/bin_pieces.hpp"
+
 namespace binpick {
 
 BodyId add_bin(World& world, const BinSpec& bin, const Pose& X_WB) {
-  return world.add_fixed(bin_boxes(bin, kThickWall), X_WB, {bin.friction, bin.restitution});
+  const SurfaceMaterial material{bin.friction, bin.restitution};
+  if (bin.mesh.empty()) return world.add_fixed(bin_boxes(bin, kThickWall), X_WB, material);
+  BinSpec prepared = bin;
+  prepare_bin(prepared);  // nothing left to do when the caller has done it
+  return world.add_fixed_hulls(thickened(*prepared.pieces_B, prepared, kThickWall), X_WB, material);
+}
+
+BodyId add_drawn_bin(World& world, const BinSpec& bin, const Pose& X_WB) {
+  const SurfaceMaterial material{bin.friction, bin.restitution};
+  if (bin.mesh.empty()) return world.add_fixed(bin_boxes(bin, bin.wall), X_WB, material);
+  BinSpec prepared = bin;
+  prepare_bin(prepared);
+  return world.add_fixed_hulls(*prepared.pieces_B, X_WB, material);
+}
+
+TriangleMesh drawn_bin(const BinSpec& bin) {
+  if (!bin.mesh.empty()) {
+    BinSpec loaded = bin;
+    loaded.load();
+    return loaded.solid->mesh_B;
+  }
+  TriangleMesh mesh;
+  for (const Primitive& box : bin_boxes(bin, bin.wall)) append(mesh, mesh_of(box));
+  return mesh;
 }
 
 BodyId add_guard_walls(World& world, const BinSpec& bin, const Pose& X_WB, double top) {

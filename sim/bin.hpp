@@ -11,6 +11,10 @@ inline constexpr double kThickWall = 0.05;  ///< m, thickness of everything fixe
 
 BodyId add_bin(World& world, const BinSpec& bin, const Pose& X_WB);
 
+/// The bin as it looks from outside as well, walls no thicker than drawn: what arm and tool may not touch.
+BodyId add_drawn_bin(World& world, const BinSpec& bin, const Pose& X_WB);
+TriangleMesh drawn_bin(const BinSpec& bin);  ///< in B
+
 /// Invisible walls flush with the inner faces, from the rim up to `top` (m above the inner floor).
 BodyId add_guard_walls(World& world, const BinSpec& bin, const Pose& X_WB, double top);
 

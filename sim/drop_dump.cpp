@@ -25,7 +25,7 @@ double widest(std::span<const DropItem> items) {
 }
 
 BinSpec tote_of(const BinSpec& bin) {
-  BinSpec tote = bin;
+  BinSpec tote = bin.plain();
   tote.inner_size = {kWidth * bin.inner_size.x(), kLength * bin.inner_size.y(), kHeight * bin.inner_size.x()};
   return tote;
 }

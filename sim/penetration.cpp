@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
+#include "core/bin_mesh.hpp"
 #include "core/check.hpp"
 #include "core/sample_surface.hpp"
 #include "sim/bin.hpp"
@@ -49,6 +51,23 @@ double pressing_force(const World& world, BodyId a, BodyId b) {
   for (const World::BodyContact& contact : world.contacts(a))
     if (contact.other == b) return contact.force;
   return 0;
+}
+
+/// Of every solid in the bin: the true mesh of one from CAD, else the boxes that collide.
+void add_bin_depths(std::span<const SolidProbe* const> probes, const BinSpec& bin, std::span<const Pose> X_BP,
+                    std::vector<double>& depths) {
+  constexpr double kCoarse = 0.05;  // m: the bin's own samples are not asked for
+  std::optional<SolidProbe> solid;
+  if (!bin.mesh.empty()) {
+    BinSpec loaded = bin;
+    loaded.load();
+    solid.emplace(loaded.solid->mesh_B, kCoarse);
+  }
+  const std::vector<Primitive> boxes = bin_boxes(bin, kThickWall);
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const double depth = solid ? solid->deepest_of(*probes[i], X_BP[i]) : probes[i]->deepest_in(boxes, X_BP[i]);
+    if (depth > 0) depths.push_back(depth);
+  }
 }
 
 }  // namespace
@@ -118,9 +137,8 @@ std::vector<double> penetrations(const World& world, std::span<const BodyId> bod
           std::max(probes[i]->deepest_of(*probes[j], X_ij), probes[j]->deepest_of(*probes[i], X_ij.inverse()));
       add(depth, pressing_force(world, bodies[i], bodies[j]));
     }
-  const std::vector<Primitive> boxes = bin_boxes(bin, kThickWall);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (const double depth = probes[i]->deepest_in(boxes, X_WB.inverse() * X_WP[i]); depth > 0) depths.push_back(depth);
+  for (std::size_t i = 0; i < bodies.size(); ++i) X_WP[i] = X_WB.inverse() * X_WP[i];
+  add_bin_depths(probes, bin, X_WP, depths);
   return depths;
 }
 

@@ -52,6 +52,7 @@ class World {
 
   BodyId add_free(const Part& part, const CollisionShape& shape, const Pose& X_WP);
   BodyId add_fixed(std::span<const Primitive> shapes_O, const Pose& X_WO, const SurfaceMaterial& material);
+  BodyId add_fixed_hulls(std::span<const TriangleMesh> convex_O, const Pose& X_WO, const SurfaceMaterial& material);
   /// Moved along a given path (kinematic): arm links, tools.
   BodyId add_moved(std::span<const Primitive> shapes_O, const Pose& X_WO, const SurfaceMaterial& material);
   /// Where a moved body shall be at the end of the next step.

@@ -89,16 +89,9 @@ std::shared_ptr<World::Impl::Geometry> World::Impl::part_geometry(const Part& pa
   geometry->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(children));
   geometry->compound->setMargin(config.margin);
   const Pose X_MP = X_PM.inverse();
-  for (const TriangleMesh& piece : shape.pieces_P) {
-    std::vector<Eigen::Vector3d> points_M;
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& v : piece.vertices) {
-      points_M.push_back(X_MP * v);
-      centre += points_M.back() / static_cast<double>(piece.vertices.size());
-      geometry->radius = std::max(geometry->radius, points_M.back().norm());
-    }
-    add_child(*geometry, hull_shape(points_M, centre, config.margin), Pose(Eigen::Translation3d(centre)));
-  }
+  std::vector<TriangleMesh> pieces_M;
+  for (const TriangleMesh& piece : shape.pieces_P) pieces_M.push_back(transformed(X_MP, piece));
+  add_hulls(*geometry, pieces_M);
   for (const Primitive& solid : shape.solids_P) {
     for (const Eigen::Vector3d& v : mesh_of(solid, 12).vertices)
       geometry->radius = std::max(geometry->radius, (X_MP * v).norm());
@@ -106,6 +99,17 @@ std::shared_ptr<World::Impl::Geometry> World::Impl::part_geometry(const Part& pa
     add_child(*geometry, ball ? ball_shape(solid.size.x()) : primitive_shape(solid, config.margin), X_MP * solid.X_OS);
   }
   return geometry;
+}
+
+void World::Impl::add_hulls(Geometry& geometry, std::span<const TriangleMesh> pieces_M) const {
+  for (const TriangleMesh& piece : pieces_M) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& v : piece.vertices) {
+      centre += v / static_cast<double>(piece.vertices.size());
+      geometry.radius = std::max(geometry.radius, v.norm());
+    }
+    add_child(geometry, hull_shape(piece.vertices, centre, config.margin), Pose(Eigen::Translation3d(centre)));
+  }
 }
 
 std::shared_ptr<World::Impl::Geometry> World::Impl::primitive_geometry(std::span<const Primitive> shapes_O) const {
@@ -168,6 +172,15 @@ BodyId World::add_free(const Part& part, const CollisionShape& shape, const Pose
 BodyId World::add_fixed(std::span<const Primitive> shapes_O, const Pose& X_WO, const SurfaceMaterial& material) {
   Impl::Body body;
   body.geometry = impl_->primitive_geometry(shapes_O);
+  return impl_->add(std::move(body), 0, Eigen::Vector3d::Zero(), X_WO, material);
+}
+
+BodyId World::add_fixed_hulls(std::span<const TriangleMesh> convex_O, const Pose& X_WO, const SurfaceMaterial& material) {
+  Impl::Body body;
+  body.geometry = std::make_shared<Impl::Geometry>();
+  body.geometry->compound = std::make_unique<btCompoundShape>(true, static_cast<int>(convex_O.size()));
+  body.geometry->compound->setMargin(impl_->config.margin);
+  impl_->add_hulls(*body.geometry, convex_O);
   return impl_->add(std::move(body), 0, Eigen::Vector3d::Zero(), X_WO, material);
 }
 

@@ -66,6 +66,8 @@ struct World::Impl {
              const SurfaceMaterial& material);
   std::shared_ptr<Geometry> part_geometry(const Part& part, const CollisionShape& shape, const Pose& X_PM);
   std::shared_ptr<Geometry> primitive_geometry(std::span<const Primitive> shapes_O) const;
+  /// Adds the hulls of `pieces_M`, which are placed in the compound's own frame.
+  void add_hulls(Geometry& geometry, std::span<const TriangleMesh> pieces_M) const;
   Body& at(BodyId body);
   const Body& at(BodyId body) const;
   void join_world(Body& body);

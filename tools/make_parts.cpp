@@ -1,5 +1,6 @@
-// make_parts OUTDIR: writes our own CAD, one folder per part: STEP (the drawing), STL (the same surface in triangles,
-// quick to load), convex pieces for the simulator and part.yaml. The tracked files in assets/parts are its output.
+// make_parts OUTDIR [--bins FOLDER]: writes our own CAD, one folder per part: STEP (the drawing), STL (the same surface
+// in triangles, quick to load), convex pieces for the simulator and part.yaml. The tracked files in assets/parts are
+// its output.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "core/file_io.hpp"
 #include "core/mesh_io.hpp"
 #include "core/quantity.hpp"
+#include "tools/cad_bins.hpp"
 #include "tools/cad_dimensions.hpp"
 #include "tools/cad_pieces.hpp"
 #include "tools/cad_shapes.hpp"
@@ -180,12 +182,19 @@ void make_part(const std::string& out, const std::string& name, void (*make)(con
   make(folder);
 }
 
+void make_bins(const std::string& folder) {
+  make_folder(folder);
+  write_tote_step(folder + "/tote_400x300.step");
+  write_triangles(folder, "tote_400x300");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Writes the CAD of our own parts"};
-  std::string out;
+  std::string out, bins;
   app.add_option("OUTDIR", out, "folder that gets one folder per part")->required();
+  app.add_option("--bins", bins, "folder that gets our bins as well (assets/bins)");
   CLI11_PARSE(app, argc, argv);
   try {
     make_part(out, "bearing_6914", make_bearing);
@@ -195,6 +204,7 @@ int main(int argc, char** argv) {
     make_part(out, "gear_m3_z24", make_gear);
     make_part(out, "plate_100x60", make_plate);
     make_part(out, "shaft_25_35x120", make_shaft);
+    if (!bins.empty()) make_bins(bins);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_parts: %s\n", error.what());
     return 2;

@@ -46,10 +46,9 @@ void CellWorld::add_fixed_bodies() {
   bin_body = add_bin(world_, cell_->bin, cell_->X_WB);
   table_body = world_.add_fixed(cell_->table_W(), Pose::Identity(), material);
   tray_body = world_.add_fixed(cell_->tray_W(), Pose::Identity(), material);
-  const std::vector<Primitive> bin_B = bin_boxes(cell_->bin, cell_->bin.wall);
-  thin_bin_body_ = world_.add_fixed(bin_B, cell_->X_WB, material);
+  thin_bin_body_ = add_drawn_bin(world_, cell_->bin, cell_->X_WB);
   world_.set_present(thin_bin_body_, false);
-  bin_mesh_ = mesh_of_all(bin_B);
+  bin_mesh_ = std::make_shared<const TriangleMesh>(drawn_bin(cell_->bin));
   table_mesh_ = mesh_of_all(cell_->table_W());
   tray_mesh_ = mesh_of_all(cell_->tray_W());
 }

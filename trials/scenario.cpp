@@ -196,6 +196,7 @@ std::string scenario_hash(const Scenario& scenario) {
     content(entry.spec.pieces);
   }
   content(copy.cell.arm_path);
+  content(copy.cell.bin.mesh);
   copy.cell.arm_packages.clear();  // where meshes lie says nothing either; they enter below
   const FileNaming by_content = [&](const std::string& path) {
     std::string name = path;

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/quantity.hpp"
+#include "sim/bin_pieces.hpp"
 
 namespace binpick {
 namespace {
@@ -48,6 +49,7 @@ std::vector<int> dropped_counts(const Scenario& scenario, const std::vector<Part
 
 TrialContext make_trial_context(Scenario& scenario) {
   TrialContext context;
+  prepare_bin(scenario.cell.bin);
   for (const PartEntry& entry : scenario.parts) {
     context.parts.push_back(load_part(entry.spec));
     check_fits(context.parts.back(), scenario.cell.bin, scenario.file);

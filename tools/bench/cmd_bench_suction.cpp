@@ -34,6 +34,10 @@ Action add_bench_suction(CLI::App& bench) {
       "part.yaml of a ring 70 x 100 mm about its z axis; default: the paper's bearing with sharp edges");
   command->add_option("--draws", options->config.draws, "grasps of each row")->check(CLI::Range(1, 100000));
   command->add_option("--seed", options->config.seed, "the first grasp's seed");
+  command->add_option("--diameters", options->config.diameters, "of the cups, m")->check(CLI::Range(0.002, 0.1));
+  command->add_option("--cups", options->config.cups, "how many; several stand on the land's circle")
+      ->check(CLI::Range(1, 8));
+  command->add_option("--vacuums", options->config.vacuums, "Pa below the air's pressure")->check(CLI::Range(1e3, 1e5));
   command->add_option("--json", options->json, "file for the figures");
   return [options] { return run(*options); };
 }

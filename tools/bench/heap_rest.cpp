@@ -6,6 +6,7 @@
 
 #include "core/isolated.hpp"
 #include "core/parallel.hpp"
+#include "sim/bin_pieces.hpp"
 #include "tools/bench/cpu_clock.hpp"
 #include "trials/observation.hpp"
 
@@ -28,6 +29,7 @@ class HeapMaker {
       s_.parts.front().count = config.parts;
       s_.drop.fill = 0;
     }
+    prepare_bin(s_.cell.bin);
     for (const PartEntry& entry : s_.parts) {
       context_.parts.push_back(load_part(entry.spec));
       context_.shapes.push_back(collision_shape(context_.parts.back()));

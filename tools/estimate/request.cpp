@@ -48,6 +48,7 @@ void read_bin(const std::string& path, FrameRequest& request) {
     v.field("X_CB", request.X_CB, "believed pose of the bin (centre of its inner floor, z up) in the camera frame");
     request.bin.validate();
   });
+  request.bin.load();
   request.has_bin = true;
 }
 
