@@ -235,10 +235,11 @@ std::string html_report(const CampaignSummary& summary, std::span<const TrialRec
          "</h1><p class=\"verdict\">" + text::html(text::verdict(summary)) + "</p>" + opening_pictures(pictures) +
          cards(summary) + "<h2>Errors of right poses (paper: Tables 1 and 2)</h2>" + error_table(summary) + "<p></p>" +
          error_plots(records) + "<h2>Times (paper: Table 4)</h2>" + stage_table(summary) + "<h2>How picks ended</h2>" +
-         outcome_table(summary) + "<h2>Failures</h2>" + failure_list(records, pictures) + rejection_table(records) +
-         gallery(pictures) + "<h2>About the paper's figures</h2>" + slips() + "<p class=\"note\">" +
-         std::to_string(summary.trials) + " trials; scenario " + scenario_hash + "; records " +
-         text::html(summary.records_hash) + ".</p></main></body></html>\n";
+         outcome_table(summary) + "<p class=\"note\">" + text::html(text::collision_line(summary)) +
+         ".</p><h2>Failures</h2>" + failure_list(records, pictures) + rejection_table(records) + gallery(pictures) +
+         "<h2>About the paper's figures</h2>" + slips() + "<p class=\"note\">" + std::to_string(summary.trials) +
+         " trials; scenario " + scenario_hash + "; records " + text::html(summary.records_hash) +
+         ".</p></main></body></html>\n";
 }
 
 }  // namespace binpick

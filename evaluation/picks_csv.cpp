@@ -44,6 +44,13 @@ std::string chosen_error(const PickRecord& pick, double factor) {
   return chosen ? number(factor * chosen->error.*Member, 3) : "";
 }
 
+/// Contacts of arm and tool with bin, tray and table that began; lips may touch.
+int collisions_of(const PickRecord& pick) {
+  int sum = 0;
+  for (const auto& [name, count] : pick.collisions) sum += name.rfind("lip", 0) == 0 ? 0 : count;
+  return sum;
+}
+
 using T = const TrialRecord&;
 using P = const PickRecord&;
 
@@ -75,6 +82,10 @@ constexpr Column kColumns[] = {
     {"hold_use", [](T, std::size_t, P p) { return number(p.hold_use, 3); }},
     {"contact_force_n", [](T, std::size_t, P p) { return number(p.contact_force, 2); }},
     {"contact_depth_mm", [](T, std::size_t, P p) { return number(text::kToMm * p.contact_depth, 3); }},
+    {"collisions", [](T, std::size_t, P p) { return std::to_string(collisions_of(p)); }},
+    {"collision_depth_mm", [](T, std::size_t, P p) { return number(text::kToMm * p.collision_depth, 3); }},
+    {"second_look", [](T, std::size_t, P p) { return cell(p.second_look); }},
+    {"look_s", [](T, std::size_t, P p) { return number(p.look_time, 3); }},
     {"neighbours_moved", [](T, std::size_t, P p) { return std::to_string(p.neighbours_moved); }},
     {"neighbours_dragged", [](T, std::size_t, P p) { return std::to_string(p.neighbours_dragged); }},
     {"parts_dropped_back", [](T, std::size_t, P p) { return std::to_string(p.parts_dropped_back); }},

@@ -49,6 +49,10 @@ void pick_fields(Archive& archive, Pick& pick) {
   archive("contact_force", pick.contact_force);
   archive("contact_depth", pick.contact_depth);
   archive("contact", pick.contact);
+  archive("collisions", pick.collisions);
+  archive("collision_depth", pick.collision_depth);
+  archive("second_look", pick.second_look);
+  archive("look_time", pick.look_time);
   archive("neighbours_moved", pick.neighbours_moved);
   archive("neighbours_dragged", pick.neighbours_dragged);
   archive("parts_dropped_back", pick.parts_dropped_back);

@@ -102,7 +102,7 @@ std::string terminal_table(const CampaignSummary& s) {
          plain_table(with_head({"right poses: " + std::to_string(s.measured), "ours", "paper"}, error_rows(s))) + "\n" +
          plain_table(with_head({"stage, ms", "mean", "median", "p95", "paper"}, stage_rows(s))) + "\n" +
          plain_table(with_head({"outcome", "picks", "", "seeds"}, outcome_rows(s))) + "\n  " + heap_line(s) + "\n  " +
-         cycle_line(s) + "\n  records " + s.records_hash + "\n";
+         text::collision_line(s) + "\n  " + cycle_line(s) + "\n  records " + s.records_hash + "\n";
 }
 
 std::string markdown_report(const CampaignSummary& s) {
@@ -117,7 +117,8 @@ std::string markdown_report(const CampaignSummary& s) {
       "## Times in ms (paper: Table 4)\n\n" +
       markdown_table({"stage", "mean", "median", "95 %", "paper"}, stage_rows(s)) +
       "Vision and planning are wall times on this machine, robot motion is simulated time.\n\n" +
-      text::markdown(cycle_line(s)) + "; " + text::markdown(heap_line(s)) + ".\n\n## Outcomes\n\n" +
+      text::markdown(cycle_line(s)) + "; " + text::markdown(heap_line(s)) + "; " +
+      text::markdown(text::collision_line(s)) + ".\n\n## Outcomes\n\n" +
       markdown_table({"outcome", "picks", "meaning", "seeds"}, outcome_rows(s)) +
       "Any seed again: `binpick trial scenario.yaml --seed N` in the run folder.\n\n"
       "## The paper's own slips\n\n";

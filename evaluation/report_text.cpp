@@ -156,6 +156,17 @@ std::string verdict(const CampaignSummary& summary) {
          "), " + stand + " the paper's " + percent(theirs) + ".";
 }
 
+std::string collision_line(const CampaignSummary& summary) {
+  const CollisionSummary& c = summary.collisions;
+  std::string line = "collisions of arm or tool with bin, tray or table: in " + std::to_string(c.collided) + " of " +
+                     std::to_string(c.executed) + " executed picks";
+  if (c.collided > 0) line += ", at most " + fixed(kToMm * c.depth, 2) + " mm deep";
+  if (c.lips > 0) line += "; a lip touched one of them in " + std::to_string(c.lips);
+  std::string names;
+  for (const auto& [name, count] : c.by_name) names += (names.empty() ? "" : ", ") + name + " " + std::to_string(count);
+  return names.empty() ? line : line + " (" + names + ")";
+}
+
 std::string markdown_table(const Row& head, const std::vector<Row>& rows) {
   std::string table = "|", rule = "|";
   for (const std::string& cell : head) {

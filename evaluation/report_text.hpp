@@ -48,6 +48,9 @@ std::vector<StageLine> stage_lines(const CampaignSummary& summary);
 /// One sentence: how the share of cleared parts stands beside the paper's.
 std::string verdict(const CampaignSummary& summary);
 
+/// One sentence: executed picks in which arm or tool met bin, tray or table, by the physics world's contacts.
+std::string collision_line(const CampaignSummary& summary);
+
 inline constexpr double kToMm = 1e3, kToMs = 1e3, kToDeg = 57.29577951308232;
 
 }  // namespace binpick::text

@@ -177,6 +177,25 @@ HeapSummary heap_summary(const Records& records) {
   return heaps;
 }
 
+CollisionSummary collision_summary(const Records& records) {
+  CollisionSummary out;
+  for (const TrialRecord* record : records) {
+    for (const PickRecord& pick : record->picks) {
+      if (pick.motion_time <= 0) continue;
+      ++out.executed;
+      bool arm = false, lip = false;
+      for (const auto& [name, count] : pick.collisions) {
+        (name.rfind("lip", 0) == 0 ? lip : arm) = true;
+        out.by_name[name] += static_cast<std::size_t>(count);
+      }
+      out.collided += arm ? 1 : 0;
+      out.lips += lip ? 1 : 0;
+      out.depth = std::max(out.depth, pick.collision_depth);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_wall_seconds) {
@@ -190,6 +209,7 @@ CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_
   add_cycle(sorted, campaign_wall_seconds, summary);
   add_outcomes(sorted, summary);
   summary.heaps = heap_summary(sorted);
+  summary.collisions = collision_summary(sorted);
   summary.records_hash = records_hash(sorted);
   return summary;
 }

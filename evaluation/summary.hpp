@@ -37,6 +37,15 @@ struct HeapSummary {
   double penetration_max = 0;  ///< m
 };
 
+/// What arm, tool and camera met of bin, tray and table, from the physics world's own contacts in every step.
+struct CollisionSummary {
+  std::size_t executed = 0;                    ///< picks in which the arm moved
+  std::size_t collided = 0;                    ///< of them, those with a contact of arm, tool or camera
+  std::size_t lips = 0;                        ///< of them, those in which a lip touched bin, tray or table
+  double depth = 0;                            ///< m, deepest of arm, tool and camera
+  std::map<std::string, std::size_t> by_name;  ///< "tool in the bin" -> contacts that began
+};
+
 struct CampaignSummary {
   std::string scenario;
   std::size_t trials = 0;
@@ -52,6 +61,7 @@ struct CampaignSummary {
   double rotation_median = 0, rotation_p95 = 0;        ///< rad
   Eigen::Vector3d mean_abs_xyz = Eigen::Vector3d::Zero(), mean_abs_rpy = Eigen::Vector3d::Zero();
   HeapSummary heaps;
+  CollisionSummary collisions;
   double cycle_median = 0;  ///< s simulated, succeeded picks
   double motion_mean = 0;   ///< s simulated, succeeded picks (paper's "moving robot")
   double simulated_picks_per_hour = 0, throughput_per_hour = 0;  ///< 0: unknown

@@ -66,6 +66,11 @@ std::string summary_json(const CampaignSummary& s) {
                    {"largest_motion_m", s.heaps.largest_motion},
                    {"penetration_p99_m", s.heaps.penetration_p99},
                    {"penetration_max_m", s.heaps.penetration_max}};
+  json["collisions"] = {{"executed", s.collisions.executed},
+                        {"collided", s.collisions.collided},
+                        {"lips", s.collisions.lips},
+                        {"depth_m", s.collisions.depth},
+                        {"by_name", s.collisions.by_name}};
   json["cycle_s"] = {{"median", s.cycle_median}, {"motion_mean", s.motion_mean}};
   json["simulated_picks_per_hour"] = s.simulated_picks_per_hour;
   json["throughput_per_hour"] = s.throughput_per_hour;

@@ -15,56 +15,60 @@
 
 namespace binpick {
 
-inline constexpr int kRecordSchema = 3;
+inline constexpr int kRecordSchema = 4;
 
 struct PickRecord {
   PickOutcome outcome = PickOutcome::kNoDetection;
-  std::string reason;                        ///< one phrase, e.g. why no candidate survived
-  PoseCheck check;                           ///< every estimate of this look against the truth
-  std::optional<std::size_t> chosen;         ///< estimate that the plan picked
-  std::optional<std::size_t> lifted_body;    ///< heap index of the part that left the bin with the tool
-  std::map<std::string, int> rejections;     ///< reason -> number of rejected candidates
-  double sim_time = 0;                       ///< s, simulated motion + vacuum + exposure
-  double motion_time = 0;                    ///< s of it, moving robot (Table 4)
-  std::optional<double> place_error;         ///< m, of the released part's centre against the planned one
-  std::optional<double> place_rotation;      ///< rad
-  double swing = 0;                          ///< rad, largest tilt of the held part against the tool
-  double peak_force = 0;                     ///< N, largest pull seen by the grip
-  double hold_use = 0;                       ///< largest share of a cup's limits that the load took; a jerk above 1 may be held
-  double contact_force = 0;                  ///< N, largest by arm, tool or held part on heap, bin, tray or table
-  double contact_depth = 0;                  ///< m, deepest of those contacts
-  std::string contact;                       ///< what pushed on what, at the largest force
-  int neighbours_dragged = 0;                ///< other parts that rose more than 10 mm with the held one
-  int parts_dropped_back = 0;                ///< of those, the ones that lie in the bin afterwards
-  int parts_lost = 0;                        ///< other parts that left the bin and do not lie in the tray
-  int neighbours_moved = 0;                  ///< parts that moved by more than 5 mm while the target was lifted
+  std::string reason;                      ///< one phrase, e.g. why no candidate survived
+  PoseCheck check;                         ///< every estimate of this look against the truth
+  std::optional<std::size_t> chosen;       ///< estimate that the plan picked
+  std::optional<std::size_t> lifted_body;  ///< heap index of the part that left the bin with the tool
+  std::map<std::string, int> rejections;   ///< reason -> number of rejected candidates
+  double sim_time = 0;                     ///< s, simulated motion + vacuum + exposure
+  double motion_time = 0;                  ///< s of it, moving robot (Table 4)
+  std::optional<double> place_error;       ///< m, of the released part's centre against the planned one
+  std::optional<double> place_rotation;    ///< rad
+  double swing = 0;                        ///< rad, largest tilt of the held part against the tool
+  double peak_force = 0;                   ///< N, largest pull seen by the grip
+  double hold_use = 0;       ///< largest share of a cup's limits that the load took; a jerk above 1 may be held
+  double contact_force = 0;  ///< N, largest by arm, tool or held part on heap, bin, tray or table
+  double contact_depth = 0;  ///< m, deepest of those contacts
+  std::string contact;       ///< what pushed on what, at the largest force
+  std::map<std::string, int> collisions;  ///< arm, tool and lips with bin, tray and table -> contacts that began
+  double collision_depth = 0;             ///< m, deepest of arm and tool
+  std::string second_look;                ///< why the arm looked again; empty: once was enough
+  double look_time = 0;                   ///< s of sim_time that the second look took: motion and exposure
+  int neighbours_dragged = 0;             ///< other parts that rose more than 10 mm with the held one
+  int parts_dropped_back = 0;             ///< of those, the ones that lie in the bin afterwards
+  int parts_lost = 0;                     ///< other parts that left the bin and do not lie in the tray
+  int neighbours_moved = 0;               ///< parts that moved by more than 5 mm while the target was lifted
   std::uint64_t frame_hash = 0;
   std::uint64_t estimates_hash = 0;
-  std::uint64_t world_hash = 0;              ///< after the pick
-  StageTimes wall;                           ///< s, outside the hash
-  double plan_wall = 0;                      ///< s, outside the hash
+  std::uint64_t world_hash = 0;  ///< after the pick
+  StageTimes wall;               ///< s, outside the hash
+  double plan_wall = 0;          ///< s, outside the hash
 };
 
 struct TrialRecord {
   int schema = kRecordSchema;
   std::string scenario;
   std::string scenario_hash;
-  Seed seed;                                 ///< the campaign's seed number is seed.key
-  int dropped = 0;                           ///< parts dropped
-  int placed = 0;                            ///< parts at rest in the tray at the end
-  int escaped = 0;                           ///< parts outside the bin before the first pick
+  Seed seed;        ///< the campaign's seed number is seed.key
+  int dropped = 0;  ///< parts dropped
+  int placed = 0;   ///< parts at rest in the tray at the end
+  int escaped = 0;  ///< parts outside the bin before the first pick
   bool settled = true;
-  double settle_time = 0;                    ///< s simulated until the heap was at rest
-  double worst_penetration = 0;              ///< m, deepest contact at rest, of what collides
-  double penetration_p99 = 0;                ///< m, of true solids, over the pairs that press on each other; at rest
-  double penetration_max = 0;                ///< m
-  double woken_energy = 0;                   ///< J, largest of a part at the end of the time it was kept awake
-  double woken_motion = 0;                   ///< m, largest of a part in that time
-  double woken_share = 0;                    ///< of the parts that moved more than 0.1 mm in it
+  double settle_time = 0;        ///< s simulated until the heap was at rest
+  double worst_penetration = 0;  ///< m, deepest contact at rest, of what collides
+  double penetration_p99 = 0;    ///< m, of true solids, over the pairs that press on each other; at rest
+  double penetration_max = 0;    ///< m
+  double woken_energy = 0;       ///< J, largest of a part at the end of the time it was kept awake
+  double woken_motion = 0;       ///< m, largest of a part in that time
+  double woken_share = 0;        ///< of the parts that moved more than 0.1 mm in it
   std::uint64_t drop_hash = 0;
   std::vector<PickRecord> picks;
-  std::string error;                         ///< text of an InternalError
-  double wall_total = 0;                     ///< s, outside the hash
+  std::string error;      ///< text of an InternalError
+  double wall_total = 0;  ///< s, outside the hash
 };
 
 /// Canonical JSON, one line without the newline: {"schema":..,...,"hash":"..","wall":{..}}. Doubles read back exactly.

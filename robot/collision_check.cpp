@@ -135,19 +135,27 @@ Obstacle CollisionCheck::hit(const Vector6d& q) const {
 
 std::vector<Eigen::Vector3d> CollisionCheck::without_robot(const std::vector<Eigen::Vector3d>& points_W,
                                                            const Vector6d& q, double margin) const {
+  const std::vector<char> own = near_robot(points_W, q, margin);
+  std::vector<Eigen::Vector3d> kept;
+  for (std::size_t i = 0; i < points_W.size(); ++i)
+    if (!own[i]) kept.push_back(points_W[i]);
+  return kept;
+}
+
+std::vector<char> CollisionCheck::near_robot(const std::vector<Eigen::Vector3d>& points_W, const Vector6d& q,
+                                             double margin) const {
   std::vector<Placed> robot = robot_at(q);
   const Pose X_WF = cell_->X_WR * cell_->arm->forward(q);
   for (const Solid& lip : lips_F_) robot.push_back({&lip, X_WF * lip.shape.X_OS});
-  std::vector<Eigen::Vector3d> kept;
+  std::vector<char> own;
   for (const Eigen::Vector3d& p_W : points_W) {
-    const bool own = std::any_of(robot.begin(), robot.end(), [&](const Placed& placed) {
+    own.push_back(std::any_of(robot.begin(), robot.end(), [&](const Placed& placed) {
       const Eigen::Vector3d between = p_W - placed.X_WS.translation();
       return between.norm() < placed.solid->radius + margin &&
              signed_distance_S(placed.solid->shape, placed.X_WS.linear().transpose() * between) < margin;
-    });
-    if (!own) kept.push_back(p_W);
+    }));
   }
-  return kept;
+  return own;
 }
 
 Obstacle CollisionCheck::path_hit(const JointTrajectory& path, double step) const {

@@ -32,6 +32,8 @@ class CollisionCheck {
   /// The points that are not within `margin` of arm, tool or camera at q: a camera sees its own robot too.
   std::vector<Eigen::Vector3d> without_robot(const std::vector<Eigen::Vector3d>& points_W, const Vector6d& q,
                                              double margin) const;
+  /// Of each point whether it is: what without_robot() leaves out.
+  std::vector<char> near_robot(const std::vector<Eigen::Vector3d>& points_W, const Vector6d& q, double margin) const;
   /// Points of a held part against bin, tray and table, deeper than `allowed`.
   Obstacle points_hit(const std::vector<Eigen::Vector3d>& points_W, double allowed) const;
 

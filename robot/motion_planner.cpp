@@ -33,8 +33,9 @@ std::string in_the_way(Obstacle obstacle, const char* where) {
 
 }  // namespace
 
-MotionPlanner::MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check)
-    : cell_(cell), config_(config), check_(check), X_GF_(cell.gripper->X_FG().inverse()) {}
+MotionPlanner::MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check,
+                             const Vector6d& q_now)
+    : cell_(cell), config_(config), check_(check), X_GF_(cell.gripper->X_FG().inverse()), q_now_(q_now) {}
 
 std::optional<PlannedMotion> MotionPlanner::plan(const PickTask& task, std::string& why) const {
   PlannedMotion out;
@@ -85,7 +86,17 @@ bool MotionPlanner::plan_approach(const PickTask& task, double approach, Planned
   return false;
 }
 
-/// From the look pose to q_start, then straight along `tips` from the last to the first.
+/// From where the arm stands to q_start; where that is blocked, back to the look pose first, the way it came.
+Obstacle MotionPlanner::way_to(const Vector6d& q_start, JointTrajectory& way) const {
+  way = joint_move(*cell_.arm, q_now_, q_start, cell_.motion);
+  const Obstacle hit = check_.path_hit(way);
+  if (hit == Obstacle::kNone || q_now_ == cell_.q_look) return hit;
+  const JointTrajectory rest = joint_move(*cell_.arm, cell_.q_look, q_start, cell_.motion);
+  way = joined(joint_move(*cell_.arm, q_now_, cell_.q_look, cell_.motion), rest);
+  return check_.path_hit(rest);
+}
+
+/// From where the arm stands to q_start, then straight along `tips` from the last to the first.
 bool MotionPlanner::approach_from(const std::vector<Pose>& tips, const Vector6d& q_start, PlannedMotion& out,
                                   std::string& why) const {
   std::vector<JointTrajectory> pieces;
@@ -104,8 +115,7 @@ bool MotionPlanner::approach_from(const std::vector<Pose>& tips, const Vector6d&
       return false;
     }
   }
-  out.approach = joint_move(*cell_.arm, cell_.q_look, q_start, cell_.motion);
-  if (const Obstacle hit = check_.path_hit(out.approach); hit != Obstacle::kNone) {
+  if (const Obstacle hit = way_to(q_start, out.approach); hit != Obstacle::kNone) {
     why = in_the_way(hit, "way to the bin");
     return false;
   }

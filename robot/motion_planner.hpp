@@ -33,8 +33,9 @@ struct PlannedMotion {
 
 class MotionPlanner {
  public:
-  /// `check` already knows the heap; the tool at contact has been looked at.
-  MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check);
+  /// `check` already knows the heap; the tool at contact has been looked at. `q_now`: where the arm stands, come
+  /// straight from the look pose.
+  MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check, const Vector6d& q_now);
 
   /// Empty when no way is found; `why` then says what stood in it.
   std::optional<PlannedMotion> plan(const PickTask& task, std::string& why) const;
@@ -53,6 +54,7 @@ class MotionPlanner {
   bool plan_approach(const PickTask& task, double approach, PlannedMotion& out, std::string& why) const;
   bool approach_from(const std::vector<Pose>& tips, const Vector6d& q_start, PlannedMotion& out,
                      std::string& why) const;
+  Obstacle way_to(const Vector6d& q_start, JointTrajectory& way) const;
   bool plan_lift(const PickTask& task, PlannedMotion& out, std::string& why) const;
   bool plan_place(const PickTask& task, PlannedMotion& out, std::string& why) const;
   std::vector<WayToPlace> ways_to_place(const PickTask& task, const Vector6d& q_lifted) const;
@@ -70,6 +72,7 @@ class MotionPlanner {
   const PlanningConfig& config_;
   const CollisionCheck& check_;
   Pose X_GF_;
+  Vector6d q_now_;
 };
 
 }  // namespace binpick

@@ -6,6 +6,7 @@
 
 #include "core/check.hpp"
 #include "core/error.hpp"
+#include "robot/look_pose.hpp"
 #include "robot/motion_planner.hpp"
 #include "robot/one_cup.hpp"
 #include "robot/pick_candidates.hpp"
@@ -18,8 +19,6 @@ namespace {
 constexpr double kOwnTolerance = 0.004;  // m, plus three sigma: a heap point this near an estimate's surface is its own
 
 constexpr double kCare = 0.5;  // share of the acceleration for a part on one cup of several, or taken with a lean
-
-constexpr double kRobotMargin = 0.025;  // m: seen points this near to arm or tool are the robot itself
 
 double own_tolerance(const SceneView& view) { return kOwnTolerance + 3 * view.noise().sigma(0.6); }
 
@@ -93,8 +92,8 @@ struct PickPlanner::Impl {
     tool = tool_freedom(*cell.gripper, config);
   }
 
-  std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap, int placed,
-                                         PlanResult& result) const;
+  std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
+                                         const PickStart& start, PlanResult& result) const;
   PickTask task_of(const PickCandidate& candidate, const Target& target, int placed) const;
 
   Cell cell;
@@ -126,7 +125,7 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
 }
 
 std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
-                                                          int placed, PlanResult& result) const {
+                                                          const PickStart& start, PlanResult& result) const {
   const std::vector<PickCandidate> candidates =
       ranked_candidates(targets, {parts, sites, tool, config}, result.rejections);
   const auto reject = [&](const PickCandidate& candidate, const std::string& why) {
@@ -156,8 +155,8 @@ std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Targ
     ++checked;
     ++used[candidate.target];
     std::string why;
-    const MotionPlanner planner(cell, config, check);
-    const auto motion = planner.plan(task_of(candidate, target, placed), why);
+    const MotionPlanner planner(cell, config, check, start.q_now.value_or(cell.q_look));
+    const auto motion = planner.plan(task_of(candidate, target, start.placed), why);
     if (!motion) {
       reject(candidate, why);
       continue;
@@ -174,15 +173,14 @@ PickPlanner::~PickPlanner() = default;
 PickPlanner::PickPlanner(PickPlanner&&) noexcept = default;
 PickPlanner& PickPlanner::operator=(PickPlanner&&) noexcept = default;
 
-PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed,
-                             std::span<const Eigen::Vector3d> failed_W) const {
-  const auto start = std::chrono::steady_clock::now();
+PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC,
+                             const PickStart& start) const {
+  const auto begin = std::chrono::steady_clock::now();
   PlanResult result;
   // The frame was taken at the look pose, where the tool may stand in the picture.
-  const CollisionCheck robot(impl_->cell, 0);
-  const ObstacleMap heap(robot.without_robot(perceived_heap(view, X_WC).points_W(), impl_->cell.q_look, kRobotMargin));
+  const ObstacleMap heap = heap_without_robot(impl_->cell, view, X_WC, impl_->cell.q_look);
   std::vector<Target> targets = impl_->finder.find(found, X_WC, heap, own_tolerance(view), impl_->config.min_score);
-  mark_failed(targets, impl_->parts, failed_W);
+  mark_failed(targets, impl_->parts, start.failed_W);
   const int low = static_cast<int>(found.estimates.size() - targets.size());
   if (low > 0) result.rejections["score too low"] = low;
   for (const Target& target : targets) {
@@ -190,18 +188,18 @@ PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view,
     if (sites.sites.empty())
       ++result.rejections["no seal predicted (" + impl_->parts[target.part].name + ": " + sites.why_none + ")"];
   }
-  result.plan = impl_->try_candidates(targets, heap, placed, result);
+  result.plan = impl_->try_candidates(targets, heap, start, result);
   result.outcome = result.plan               ? PickOutcome::kSucceeded
                    : found.estimates.empty() ? PickOutcome::kNoDetection
                                              : PickOutcome::kNoReachablePick;
   if (!result.plan) result.reason = found.estimates.empty() ? "nothing was detected" : summary(result.rejections);
-  result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
 PlanResult plan_pick(const EstimateResult& found, const SceneView& view, const Pose& X_WC, const Cell& cell,
                      std::span<const Part> parts, const PlanningConfig& config, int placed) {
-  return PickPlanner(cell, parts, config).plan(found, view, X_WC, placed);
+  return PickPlanner(cell, parts, config).plan(found, view, X_WC, {placed, {}, {}});
 }
 
 }  // namespace binpick

@@ -62,6 +62,13 @@ struct PlanResult {
   double wall = 0;  ///< s, decides nothing
 };
 
+/// What a plan starts from, beside what was seen.
+struct PickStart {
+  int placed = 0;                             ///< parts already in the tray: chooses the slot
+  std::span<const Eigen::Vector3d> failed_W;  ///< middles of believed parts at which a pick has just failed: come last
+  std::optional<Vector6d> q_now;              ///< where the arm stands, reached straight from the look pose; else there
+};
+
 /// Holds what depends on cell, parts and config alone (pick sites, prepared meshes); one per worker serves any number
 /// of picks. Keeps references to `cell` and `parts`.
 class PickPlanner {
@@ -71,10 +78,7 @@ class PickPlanner {
   PickPlanner(PickPlanner&&) noexcept;
   PickPlanner& operator=(PickPlanner&&) noexcept;
 
-  /// `placed` counts parts already in the tray (chooses the slot). `failed_W`: middles of believed parts at which a
-  /// pick has just failed; they come last.
-  PlanResult plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, int placed,
-                  std::span<const Eigen::Vector3d> failed_W = {}) const;
+  PlanResult plan(const EstimateResult& found, const SceneView& view, const Pose& X_WC, const PickStart& start) const;
 
  private:
   struct Impl;

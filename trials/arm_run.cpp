@@ -90,6 +90,16 @@ void ArmRun::step(const Vector6d& q) {
   for (const CupState& cup : cell_.hold().cups())
     peak_force_ = std::max({peak_force_, std::hypot(cup.pull, cup.shear), cup.press});
   if (held_ >= 0 && cell_.hold().holds_any()) step_held();
+  log_collisions();
+}
+
+void ArmRun::log_collisions() {
+  std::map<std::string, double> now = cell_.cell_contacts();
+  for (const auto& [name, depth] : now) {
+    if (!in_contact_.count(name)) ++collisions_[name];
+    if (name.rfind("lip", 0) != 0) collision_depth_ = std::max(collision_depth_, depth);
+  }
+  in_contact_ = std::move(now);
 }
 
 bool ArmRun::collides() {

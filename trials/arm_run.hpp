@@ -2,6 +2,7 @@
 // for the hold, keeps time and the largest force.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,10 @@ class ArmRun {
   double hold_use() const { return hold_use_; }
   /// Largest contact of arm, tool or held part with heap, bin, tray or table, and the deepest.
   const CellWorld::Touch& contacts() const { return contacts_; }
+  /// What arm, tool and lips met of bin, tray and table in every step so far, watched or not: how often each contact
+  /// began, and the deepest of arm and tool (m).
+  const std::map<std::string, int>& collisions() const { return collisions_; }
+  double collision_depth() const { return collision_depth_; }
   /// m, how far part i of the heap rose at most.
   double rise(std::size_t i) const { return rise_.empty() ? 0 : rise_[i]; }
 
@@ -51,6 +56,7 @@ class ArmRun {
   bool collides();
   void step_held();
   void touch_held();
+  void log_collisions();
   Eigen::Matrix3d turn_of_held() const;
 
   CellWorld& cell_;
@@ -59,6 +65,9 @@ class ArmRun {
   double motion_time_ = 0, vacuum_time_ = 0, peak_force_ = 0, swing_ = 0, hold_use_ = 0;
   double pushed_for_ = 0;  ///< s, the held part harder than the protective force
   CellWorld::Touch contacts_;
+  std::map<std::string, int> collisions_;
+  std::map<std::string, double> in_contact_;  ///< in the last step
+  double collision_depth_ = 0;
   std::vector<double> start_heights_, rise_;
   double reached_ = 0;  ///< s along the last path
   BodyId held_ = -1;

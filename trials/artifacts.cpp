@@ -75,14 +75,14 @@ void TrialPictures::frame(int pick, const FrameRequest& request, const SceneView
   write_file(path(pick, "frame") + "/estimates.csv", estimates_csv(found));
 }
 
-void TrialPictures::look(int pick, DepthRenderer& renderer, const CellWorld& cell_world, const DepthFrame& frame,
-                         const EstimateResult& found) {
+void TrialPictures::look(int pick, const std::string& prefix, DepthRenderer& renderer, const CellWorld& cell_world,
+                         const DepthFrame& frame, const EstimateResult& found) {
   if (pick >= looks_) return;
   const RenderScene scene = cell_world.render_scene();
-  save(pick, "heap", renderer.picture(scene, bystander_camera(), bystander(cell_world.cell())));
-  save(pick, "depth", depth_picture(frame));
+  save(pick, prefix + "heap", renderer.picture(scene, bystander_camera(), bystander(cell_world.cell())));
+  save(pick, prefix + "depth", depth_picture(frame));
   const Image<Rgb> from_camera = renderer.picture(scene, frame.camera, frame.X_WC);
-  save(pick, "estimates", overlay_picture(from_camera, frame, found.estimates, cell_world.parts()));
+  save(pick, prefix + "estimates", overlay_picture(from_camera, frame, found.estimates, cell_world.parts()));
 }
 
 void TrialPictures::moment(int pick, const char* name, DepthRenderer& renderer, const CellWorld& cell_world) {

@@ -26,8 +26,9 @@ class TrialPictures {
   /// Pictures of the first `looks` looks and picks; 0: none but those of failed picks.
   TrialPictures(std::string folder, int looks) : folder_(std::move(folder)), looks_(looks) {}
 
-  void look(int pick, DepthRenderer& renderer, const CellWorld& cell_world, const DepthFrame& frame,
-            const EstimateResult& found);
+  /// `prefix` goes before the pictures' names; `found` is in the frame's own C.
+  void look(int pick, const std::string& prefix, DepthRenderer& renderer, const CellWorld& cell_world,
+            const DepthFrame& frame, const EstimateResult& found);
   /// The frame as a folder that `binpick estimate` reads, with the estimates beside it.
   void frame(int pick, const FrameRequest& request, const SceneView& view, const EstimateResult& found);
   void moment(int pick, const char* name, DepthRenderer& renderer, const CellWorld& cell_world);

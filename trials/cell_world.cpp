@@ -64,7 +64,12 @@ void CellWorld::add_arm() {
   }
   const std::vector<Primitive> tool = cell_->gripper->body_G();
   tool_mesh_ = mesh_of_all(tool);
-  tool_body = world_.add_moved(tool, cell_->tip_pose(q_), metal);
+  std::vector<Primitive> solid = tool;  // what the flange carries, the camera too
+  for (Primitive shape : cell_->camera_body_F()) {
+    shape.X_OS = cell_->gripper->X_FG().inverse() * shape.X_OS;
+    solid.push_back(shape);
+  }
+  tool_body = world_.add_moved(solid, cell_->tip_pose(q_), metal);
   world_.set_present(tool_body, false);
   camera_mesh_ = mesh_of_all(cell_->camera_body_F());
   for (const CupSpec& cup : cell_->gripper->cups()) lip_meshes_.push_back(lip_mesh(cup));
@@ -194,22 +199,43 @@ std::vector<SurfaceSample> CellWorld::probe_cups() const {
   return samples;
 }
 
+std::vector<std::pair<BodyId, std::string>> CellWorld::moving_bodies() const {
+  std::vector<std::pair<BodyId, std::string>> bodies = {{tool_body, "tool"}};
+  for (std::size_t l = kFirstMovingLink; l < link_bodies.size(); ++l)
+    if (link_bodies[l] >= 0) bodies.push_back({link_bodies[l], cell_->arm->link_names()[l]});
+  return bodies;
+}
+
 CellWorld::Touch CellWorld::arm_contact() {
   Touch touch;
-  std::vector<std::pair<BodyId, std::string>> arm = {{tool_body, "tool"}};
-  for (std::size_t l = kFirstMovingLink; l < link_bodies.size(); ++l)
-    if (link_bodies[l] >= 0) arm.push_back({link_bodies[l], cell_->arm->link_names()[l]});
-  for (const auto& [body, name] : arm) {
+  for (const auto& [body, name] : moving_bodies()) {
     double force = 0;
     for (const World::BodyContact& contact : world_.contacts(body)) force += contact.force;
     if (force > touch.force) touch.force = force, touch.pushed = name + " on a part";
+  }
+  for (const auto& [name, depth] : cell_contacts())
+    if (depth > touch.depth && name.rfind("lip", 0) != 0) touch.depth = depth, touch.entered = name;
+  return touch;
+}
+
+std::map<std::string, double> CellWorld::cell_contacts() {
+  std::map<std::string, double> found;
+  for (const auto& [body, name] : moving_bodies()) {
     for (const auto& [fixed, fixed_name] :
          {std::pair{thin_bin_body_, "bin"}, {tray_body, "tray"}, {table_body, "table"}}) {
       const double depth = world_.overlap(body, fixed);
-      if (depth > touch.depth) touch.depth = depth, touch.entered = name + " in the " + fixed_name;
+      if (depth > 0) found[name + " in the " + fixed_name] = depth;
     }
   }
-  return touch;
+  for (const BodyId lip : hold_->lips()) {
+    for (const World::BodyContact& contact : world_.contacts(lip)) {
+      if (world_.kind(contact.other) != World::BodyKind::kFixed || contact.force <= 0) continue;
+      const char* other = contact.other == bin_body ? "bin" : contact.other == tray_body ? "tray" : "table";
+      double& depth = found[std::string("lip on the ") + other];
+      depth = std::max(depth, contact.depth);
+    }
+  }
+  return found;
 }
 
 }  // namespace binpick

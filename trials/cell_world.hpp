@@ -3,6 +3,7 @@
 // comes.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,11 +68,15 @@ class CellWorld {
     std::string pushed, entered;
   };
   Touch arm_contact();
+  /// Arm, tool (with the camera it carries) and lips in contact with bin, tray or table now, by name ("tool in the
+  /// bin", "lip on the table"), and how deep (m; of a lip as it is pressed in).
+  std::map<std::string, double> cell_contacts();
 
   BodyId bin_body = -1, table_body = -1, tray_body = -1, tool_body = -1;
   std::vector<BodyId> link_bodies;  ///< -1 for a link without shape
 
  private:
+  std::vector<std::pair<BodyId, std::string>> moving_bodies() const;
   void add_fixed_bodies();
   void add_arm();
   void add_items_of_cell(RenderScene& scene) const;

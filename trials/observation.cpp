@@ -50,6 +50,14 @@ DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_
   return heap;
 }
 
+Capture capture_again(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed,
+                      int pick) {
+  const Pose X_WC = s.cell.camera_pose(cell_world.joints());
+  const Seed frame_seed = trial_seed.child("sensor", static_cast<std::uint64_t>(pick)).child("second look");
+  return capture_depth(*context.renderer, *s.sensor, cell_world.render_scene(), cell_world.heap().bodies.size(),
+                       s.cell.camera.intrinsics, X_WC, X_WC, trial_seed.child("camera", 0), frame_seed);
+}
+
 Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick) {
   const RenderScene scene = cell_world.render_scene();
   Observation seen;

@@ -30,4 +30,7 @@ DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_
 /// Look number `pick` of the trial, from where the arm stands.
 Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick);
 
+/// The first camera once more before the same pick, from where the arm stands now: another frame of the same camera.
+Capture capture_again(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick);
+
 }  // namespace binpick

@@ -68,6 +68,8 @@ class Execution {
     const CellWorld::Touch& contacts = arm_.contacts();
     result_.contact_force = contacts.force;
     result_.contact_depth = contacts.depth;
+    result_.collisions = arm_.collisions();
+    result_.collision_depth = arm_.collision_depth();
     result_.contact = contacts.force > 0 ? contacts.pushed : contacts.entered;
     return result_;
   }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -39,9 +40,13 @@ struct ExecutionResult {
   std::optional<double> place_error;     ///< m, horizontal distance of the part's box centre from the plan's, at rest
   std::optional<double> place_rotation;  ///< rad, from the plan's orientation to the nearest equivalent one, at rest
   double hold_use = 0;  ///< largest share of a cup's limits that the load took; above 1 for less than break_time: held
-  double contact_force = 0;    ///< N, largest by arm, tool or held part on heap, bin, tray or table
-  double contact_depth = 0;    ///< m, deepest of those contacts
-  std::string contact;         ///< what pushed on what, at the largest force; else what reached into what
+  double contact_force = 0;  ///< N, largest by arm, tool or held part on heap, bin, tray or table
+  double contact_depth = 0;  ///< m, deepest of those contacts
+  std::string contact;       ///< what pushed on what, at the largest force; else what reached into what
+  /// Contacts of arm, tool and lips with bin, tray and table, by name ("tool in the bin", "lip on the table"): how
+  /// often each began, in every step of the arm; and the deepest of arm and tool (m).
+  std::map<std::string, int> collisions;
+  double collision_depth = 0;
   int neighbours_dragged = 0;  ///< other parts in the bin that rose more than 10 mm with the held one
   int parts_dropped_back = 0;  ///< of those, the ones that lie in the bin afterwards
   int parts_lost = 0;          ///< other parts of the bin that lie neither there nor in the tray afterwards

@@ -101,6 +101,17 @@ void visit_estimator(ConfigVisitor& v, Scenario& s) {
   if (!s.estimator && s.estimator_type != "oracle") s.estimator = make_estimator(s.estimator_type);
 }
 
+// `second_look:` is `off` or a mapping.
+void visit_second_look(ConfigVisitor& v, SecondLookConfig& config) {
+  if (v.reading() && v.is_scalar("second_look")) {
+    std::string word;
+    v.choice("second_look", word, {"off"}, "");
+    config.when.clear();
+  } else {
+    v.section("second_look", config, "a second look before a pick: off, or when and from where");
+  }
+}
+
 void validate(const Scenario& s) {
   if (s.parts.empty() || s.part_count() == 0) throw SpecError("count: a trial needs at least one part");
   if (s.part_count() > 500) throw SpecError("count: more than 500 parts in one bin are not supported");
@@ -115,6 +126,10 @@ void validate(const Scenario& s) {
   s.estimator ? s.estimator->validate() : s.oracle.validate();
   s.planning.validate();
   s.execution.validate();
+  s.second_look.validate();
+  if (!s.second_look.when.empty() && s.cell.camera.mount != "flange")
+    throw SpecError(
+        "second_look.when: the camera is fixed (cell.camera.mount); the arm can move one on the flange only");
   s.trial.validate();
 }
 
@@ -155,6 +170,7 @@ void Scenario::visit(ConfigVisitor& v) {
   visit_estimator(v, *this);
   v.section("planning", planning, "the pick planner");
   v.section("execution", execution, "the executed pick");
+  visit_second_look(v, second_look);
   v.section("trial", trial, "when a trial ends");
 }
 

@@ -10,6 +10,7 @@
 #include "core/part.hpp"
 #include "perception/pose_estimator.hpp"
 #include "robot/cell.hpp"
+#include "robot/look_pose.hpp"
 #include "robot/plan_pick.hpp"
 #include "sim/drop.hpp"
 #include "sim/sensor_model.hpp"
@@ -46,11 +47,12 @@ struct Scenario {
   std::string renderer = "osmesa";  ///< what draws the exact frames: a name of renderer_names()
   std::string sensor_type = "disparity";
   std::shared_ptr<SensorModel> sensor;
-  std::string estimator_type = "ppf";  ///< a name of the estimator registry, or `oracle`
+  std::string estimator_type = "ppf";        ///< a name of the estimator registry, or `oracle`
   std::shared_ptr<PoseEstimator> estimator;  ///< not prepared; null for the oracle
   OracleConfig oracle;
   PlanningConfig planning;
   ExecutionConfig execution;
+  SecondLookConfig second_look;
   TrialConfig trial;
   std::string file;  ///< where it was read from, for messages; no part of its values
 

@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "evaluation/statistics.hpp"
-#include "trials/observation.hpp"
+#include "trials/second_look.hpp"
 
 namespace binpick {
 namespace {
@@ -18,11 +18,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-EstimateResult estimate(const Scenario& s, const TrialContext& context, const Observation& seen, Seed seed) {
-  return s.estimator ? s.estimator->estimate(seen.view, seed)
-                     : oracle_estimate(seen.truth, context.parts, s.oracle, seed);  // only the oracle reads truth
-}
 
 std::uint64_t estimates_hash(const EstimateResult& found) {
   Hasher hasher;
@@ -46,14 +41,15 @@ void execute(const Scenario& s, CellWorld& cell_world, TrialContext& context, co
   record.outcome = result.outcome;
   record.reason = result.reason;
   record.lifted_body = result.lifted;
-  record.motion_time = result.motion_time;
-  record.sim_time = result.motion_time + result.vacuum_time + s.trial.exposure;
+  record.motion_time += result.motion_time;  // beside that of a second look
+  record.sim_time += result.motion_time + result.vacuum_time;
   record.place_error = result.place_error;
   record.place_rotation = result.place_rotation;
   record.hold_use = result.hold_use;
   record.contact_force = result.contact_force;
   record.contact_depth = result.contact_depth;
   record.contact = result.contact;
+  add_collisions(result.collisions, result.collision_depth, record);
   record.neighbours_dragged = result.neighbours_dragged;
   record.parts_dropped_back = result.parts_dropped_back;
   record.parts_lost = result.parts_lost;
@@ -98,38 +94,48 @@ void execute_plan(Run& run, const PickPlan& plan, int pick, PickRecord& record) 
   execute(run.s, run.cell_world, run.context, plan, pick, run.pictures, record);
 }
 
-// One turn of the loop: look, estimate, check, plan, pick.
+// What was seen and found, told the record before the arm moves for the pick.
+void note_sight(const Run& run, const Sight& sight, PickRecord& record) {
+  record.frame_hash = sight.seen.frame_hash;
+  record.wall = sight.found.wall;
+  record.estimates_hash = estimates_hash(sight.found);
+  record.check = run.context.checker->check(sight.found, sight.seen.X_WC_believed, sight.seen.truth);
+  record.rejections = sight.plan.rejections;
+  record.outcome = sight.plan.outcome;
+  record.reason = sight.plan.reason;
+  if (sight.found.status == EstimateStatus::kFound) return;
+  const bool failed = sight.found.status == EstimateStatus::kFailed;
+  record.outcome = failed ? PickOutcome::kEstimatorFailed : PickOutcome::kNoDetection;
+  record.reason = failed ? sight.found.message : "the estimator found nothing";
+}
+
+// One turn of the loop: look (twice if need be), estimate, check, plan, pick.
 PickRecord pick_once(Run& run, int pick) {
   PickRecord record;
   record.sim_time = run.s.trial.exposure;
-  const Observation seen = observe(run.s, run.cell_world, run.context, run.seed, pick);
-  record.frame_hash = seen.frame_hash;
+  const PickStart start{count_in(run.cell_world, &CellWorld::in_tray), run.failed_W, {}};
   const Seed estimator_seed = run.seed.child("estimator", static_cast<std::uint64_t>(pick));
-  const EstimateResult found = estimate(run.s, run.context, seen, estimator_seed);
-  record.wall = found.wall;
-  record.estimates_hash = estimates_hash(found);
-  record.check = run.context.checker->check(found, seen.X_WC_believed, seen.truth);  // before the arm moves
+  Sight sight;
+  sight.seen = observe(run.s, run.cell_world, run.context, run.seed, pick);
+  sight.found = estimate_view(run.s, run.context, sight.seen.view, sight.seen.truth, estimator_seed);
+  plan_sight(run.context, start, sight, record);
   if (run.pictures) {
-    run.pictures->look(pick, *run.context.renderer, run.cell_world, seen.captures[0].frame, found);
-    if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), seen.view, found);
+    run.pictures->look(pick, "", *run.context.renderer, run.cell_world, sight.seen.captures[0].frame, sight.found);
+    if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), sight.seen.view, sight.found);
   }
-  if (found.status != EstimateStatus::kFound) {
-    const bool failed = found.status == EstimateStatus::kFailed;
-    record.outcome = failed ? PickOutcome::kEstimatorFailed : PickOutcome::kNoDetection;
-    record.reason = failed ? found.message : "the estimator found nothing";
-    return record;
+  const LookRun look{run.s, run.cell_world, run.context, run.seed, pick, start};
+  const bool looked_again = look_again(look, sight, record);
+  if (looked_again && run.pictures)
+    run.pictures->look(pick, "second_", *run.context.renderer, run.cell_world, sight.seen.captures.back().frame,
+                       sight.found);
+  note_sight(run, sight, record);
+  if (sight.plan.plan) {
+    execute_plan(run, *sight.plan.plan, pick, record);
+    const Part& part = run.context.parts[sight.found.estimates[sight.plan.plan->estimate].part];
+    run.failed_W.push_back(sight.plan.plan->X_WP_est * part.box_center_P);
   }
-  const Stopwatch planning;
-  const PlanResult plan = run.context.planner->plan(found, seen.view, seen.X_WC_believed,
-                                                    count_in(run.cell_world, &CellWorld::in_tray), run.failed_W);
-  record.plan_wall = planning.seconds();
-  record.rejections = plan.rejections;
-  record.outcome = plan.outcome;
-  record.reason = plan.reason;
-  if (!plan.plan) return record;
-  execute_plan(run, *plan.plan, pick, record);
-  const Part& part = run.context.parts[found.estimates[plan.plan->estimate].part];
-  run.failed_W.push_back(plan.plan->X_WP_est * part.box_center_P);
+  const double away = (run.cell_world.joints() - run.s.cell.q_look).cwiseAbs().maxCoeff();
+  if (away > 1e-6) return_home(look, record);  // nothing was picked from where the second look was taken
   return record;
 }
 
@@ -170,8 +176,8 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   }
   PickRecord unsettled;
   unsettled.outcome = PickOutcome::kUnsettled;
-  unsettled.reason = heap.settled ? std::to_string(heap.escaped.size()) + " parts fell outside the bin"
-                                  : heap.unsettled;
+  unsettled.reason =
+      heap.settled ? std::to_string(heap.escaped.size()) + " parts fell outside the bin" : heap.unsettled;
   unsettled.world_hash = record.drop_hash;
   record.picks.push_back(unsettled);
 }

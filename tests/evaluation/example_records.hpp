@@ -36,6 +36,9 @@ inline PickRecord pick(PickOutcome outcome, std::size_t visible, std::size_t fou
   record.sim_time = 9;
   record.motion_time = 8;
   if (outcome == PickOutcome::kSucceeded) record.place_error = 0.0123456789012345678;
+  record.collisions = {{"lip on the bin", 2}};
+  record.second_look = "no plan";
+  record.look_time = 1.5;
   record.peak_force = 1e-300;
   record.frame_hash = 0xfedcba9876543210ull;
   record.estimates_hash = 1;

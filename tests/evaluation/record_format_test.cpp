@@ -17,7 +17,9 @@ using nlohmann::json;
 void collect(const json& value, std::set<std::string>& keys) {
   for (const auto& item : value.items()) {
     if (value.is_object()) keys.insert(item.key());
-    if (item.value().is_structured() && item.key() != "rejections") collect(item.value(), keys);
+    if (item.value().is_structured() && item.key() != "rejections" && item.key() != "collisions" &&
+        item.key() != "by_name")
+      collect(item.value(), keys);
   }
 }
 

@@ -84,6 +84,22 @@ TEST(Summary, CycleIsThatOfSucceededPicks) {
   EXPECT_EQ(s.simulated_picks_per_hour, 400);
 }
 
+TEST(Summary, CollisionsAreThoseOfPicksInWhichTheArmMoved) {
+  PickRecord clean = pick(PickOutcome::kSucceeded, 1, 1), lip = clean, crash = clean, idle = clean;
+  clean.collisions.clear();
+  crash.collisions = {{"tool in the bin", 2}, {"link_4 in the tray", 1}, {"lip on the bin", 1}};
+  crash.collision_depth = 0.003;
+  idle.motion_time = 0;
+  const std::vector<TrialRecord> records = {trial(1, {clean, lip}), trial(2, {crash, idle})};
+  const CampaignSummary s = summarise(records, 0);
+  EXPECT_EQ(s.collisions.executed, 3u);
+  EXPECT_EQ(s.collisions.collided, 1u);
+  EXPECT_EQ(s.collisions.lips, 2u);
+  EXPECT_EQ(s.collisions.depth, 0.003);
+  EXPECT_EQ(s.collisions.by_name.at("tool in the bin"), 2u);
+  EXPECT_EQ(s.collisions.by_name.at("lip on the bin"), 3u);
+}
+
 TEST(Summary, StagesCountOnlyLooksThatReachedThem) {
   PickRecord seen = pick(PickOutcome::kSucceeded, 1, 1), blind = pick(PickOutcome::kUnsettled, 0, 0);
   blind.wall = {};
@@ -119,7 +135,7 @@ TEST(Summary, RecordsHashKnowsNoWallTime) {
 
 TEST(SummaryJson, HasTheKeysThatScriptsRelyOn) {
   const json s = json::parse(summary_json(summarise(three_piles(), 3600)));
-  EXPECT_EQ(s["schema"], 3);
+  EXPECT_EQ(s["schema"], 4);
   EXPECT_EQ(s["trials"], 3);
   EXPECT_EQ(s["heaps"]["settled"], 3);
   EXPECT_EQ(s["heaps"]["largest_motion_m"], 0.0004);

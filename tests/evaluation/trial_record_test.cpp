@@ -72,6 +72,9 @@ TEST(TrialRecord, EveryFieldComesBack) {
   EXPECT_EQ(back.picks[1].outcome, PickOutcome::kNoSeal);
   EXPECT_EQ(back.picks[1].reason, "as the test says");
   EXPECT_EQ(back.picks[1].rejections.at("rim blocked"), 3);
+  EXPECT_EQ(back.picks[1].collisions.at("lip on the bin"), 2);
+  EXPECT_EQ(back.picks[1].second_look, "no plan");
+  EXPECT_EQ(back.picks[1].look_time, 1.5);
   EXPECT_FALSE(back.picks[1].place_error.has_value());
   EXPECT_EQ(back.picks[0].frame_hash, 0xfedcba9876543210ull);
   EXPECT_EQ(back.picks[0].check.estimates.size(), 3u);
@@ -143,7 +146,7 @@ TEST(TrialRecord, BadLinesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal(""), place + "is not a JSON record");
   EXPECT_EQ(refusal(line + "x"), place + "is not a JSON record");
   EXPECT_EQ(refusal("[]").rfind(place, 0), 0u);
-  EXPECT_EQ(refusal(replaced(line, "\"schema\":3", "\"schema\":1")).rfind(place + "schema: 1", 0), 0u);
+  EXPECT_EQ(refusal(replaced(line, "\"schema\":4", "\"schema\":1")).rfind(place + "schema: 1", 0), 0u);
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10,", "")), place + "dropped: is missing");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":\"10\"")), place + "dropped: is not a whole number");
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":1e10")), place + "dropped: is not a whole number");

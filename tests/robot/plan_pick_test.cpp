@@ -43,7 +43,7 @@ struct Scene {
 
   PlanResult plan(int placed = 0, PlanningConfig config = {}) {
     see();
-    return PickPlanner(cell, parts, config).plan(found, view, X_WC, placed);
+    return PickPlanner(cell, parts, config).plan(found, view, X_WC, {placed, {}, {}});
   }
 
   void see() {
@@ -214,10 +214,10 @@ TEST(PlanPick, AFailedPlaceComesLast) {
   scene.add(flat(-0.06, -0.1));
   scene.add(flat(0.06, 0.1));
   const PickPlanner planner(scene.cell, scene.parts, {});
-  const PlanResult first = planner.plan(scene.found, scene.view, scene.X_WC, 0);
+  const PlanResult first = planner.plan(scene.found, scene.view, scene.X_WC, {});
   ASSERT_TRUE(first.plan);
   const std::vector<Eigen::Vector3d> failed = {first.plan->X_WP_est * scene.parts[0].box_center_P};
-  const PlanResult second = planner.plan(scene.found, scene.view, scene.X_WC, 0, failed);
+  const PlanResult second = planner.plan(scene.found, scene.view, scene.X_WC, {0, failed, {}});
   ASSERT_TRUE(second.plan);
   EXPECT_NE(second.plan->estimate, first.plan->estimate);
 }
@@ -276,7 +276,7 @@ TEST(PlanPick, EveryPlaceOfTheTrayAndASecondLayer) {
   const PickPlanner planner(scene.cell, scene.parts, {});
   std::vector<Eigen::Vector3d> places;
   for (int placed = 0; placed < 20; ++placed) {
-    const PlanResult result = planner.plan(scene.found, scene.view, scene.X_WC, placed);
+    const PlanResult result = planner.plan(scene.found, scene.view, scene.X_WC, {placed, {}, {}});
     ASSERT_TRUE(result.plan) << placed << ": " << result.reason;
     expect_sound(scene, *result.plan);
     const Eigen::Vector3d p = result.plan->X_WP_place.translation();

@@ -8,6 +8,7 @@
 #include "core/yaml.hpp"
 #include "robot/inverse_kinematics.hpp"
 #include "sim/collision_shape.hpp"
+#include "trials/arm_run.hpp"
 
 namespace binpick {
 namespace {
@@ -244,6 +245,52 @@ TEST(PickExecution, AToolInTheBinsWallIsBlocked) {
   const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(wall), ExecutionConfig{});
   expect_ended(site, result, PickOutcome::kPathBlocked);
   EXPECT_NE(result.reason.find("bin"), std::string::npos);
+  EXPECT_GE(result.collisions.at("tool in the bin"), 1);
+  EXPECT_GT(result.collision_depth, 0.002);  // where the arm stopped
+}
+
+TEST(PickExecution, AContactOnTheUnwatchedWayBackIsLogged) {
+  Site site("mz07_three_cups.yaml");
+  site.lay({0.02, -0.05, 0});
+  site.start();
+  PickPlan plan = site.plan_at(top_of(site, 0));
+  const ExecutionResult clean = execute_pick(site.cell_world, plan, ExecutionConfig{});
+  EXPECT_EQ(clean.outcome, PickOutcome::kSucceeded) << clean.reason;
+  EXPECT_TRUE(clean.collisions.empty()) << clean.collisions.begin()->first;
+  // The same again with nothing to lift but a way back that dips into the table beside the tray.
+  const Eigen::Vector3d beside = site.cell.X_WB * Eigen::Vector3d(0, 0.33, 0.15);
+  const Vector6d over = site.joints_for(down_at(beside), site.cell.q_look);
+  const JointTrajectory down = site.straight(over, down_at(beside - Eigen::Vector3d(0, 0, 0.21)));
+  ASSERT_FALSE(down.empty());
+  plan = PickPlan{};
+  plan.approach = joint_move(*site.cell.arm, site.cell.q_look, over, site.cell.motion);
+  plan.lift = {{0}, {over}};
+  plan.back = joined(down, site.straight(down.q.back(), down_at(beside)));
+  site.cell_world.jump_to(site.cell.q_look);
+  ArmRun arm(site.cell_world, ExecutionConfig{});
+  EXPECT_TRUE(arm.follow(plan.approach, ArmRun::Watch::kCollisions));
+  EXPECT_TRUE(arm.collisions().empty());
+  EXPECT_TRUE(arm.follow(plan.back, ArmRun::Watch::kNothing));
+  EXPECT_FALSE(arm.blocked());
+  ASSERT_FALSE(arm.collisions().empty());
+  EXPECT_EQ(arm.collisions().at("tool in the table"), 1);
+  EXPECT_GT(arm.collision_depth(), 0.001);
+}
+
+TEST(PickExecution, TheCameraOnTheFlangeCollidesToo) {
+  Site site("mz07_three_cups.yaml");
+  site.lay({0, 0, 0});
+  site.start();
+  // Flange turned so that the camera, 140 mm beside the tool, hangs over the tray's side; down until its front meets
+  // the table while the tool stays above it.
+  Pose X_WF = site.cell.X_WR * site.cell.arm->forward(site.cell.q_look);
+  const Eigen::Vector3d p_WC = X_WF * site.cell.camera.pose.translation();
+  EXPECT_TRUE(site.cell_world.cell_contacts().empty());
+  // A box at the camera's place would be met by nothing else: the tool's own boxes are 100 mm away.
+  const BodyId probe = site.cell_world.world().add_fixed(
+      std::vector<Primitive>{Primitive::box({0.02, 0.02, 0.02}, Pose(Eigen::Translation3d(p_WC)))}, Pose::Identity(),
+      {});
+  EXPECT_GT(site.cell_world.world().overlap(site.cell_world.tool_body, probe), 0.001);
 }
 
 TEST(PickExecution, PressingFarBeyondTheSurfaceStopsTheArm) {

@@ -33,7 +33,7 @@ void pick_on_truth(const Scenario& s, TrialContext& context, std::uint64_t numbe
     if (found.estimates.empty()) return;
     const double before = thread_cpu_seconds();
     const PlanResult plan =
-        context.planner->plan(found, seen.view, seen.X_WC_believed, parts_in_tray(cell_world), failed_W);
+        context.planner->plan(found, seen.view, seen.X_WC_believed, {parts_in_tray(cell_world), failed_W, {}});
     const double cpu = thread_cpu_seconds() - before;
     const PickOutcome outcome = execute({cell_world, plan, pick, found.estimates.size(), cpu});
     if (!plan.plan) return;
