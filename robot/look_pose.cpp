@@ -84,7 +84,7 @@ const std::vector<std::string> kOccasions = {"no_plan", "poor_fit", "failed"};
 }  // namespace
 
 void SecondLookConfig::visit(ConfigVisitor& v) {
-  v.command("when", when, "occasions: no_plan, poor_fit (of the part to be picked), failed (a pick of it just has)");
+  v.command("when", when, "occasions: no_plan, poor_fit (of the part to be picked), failed (a pick of it has)");
   for (const std::string& occasion : when)
     if (std::find(kOccasions.begin(), kOccasions.end(), occasion) == kOccasions.end())
       v.fail("when", "'" + occasion + "' is none of no_plan, poor_fit, failed; did you mean '" +

@@ -22,7 +22,7 @@ struct SecondLookConfig {
   double distance = 0.3;          ///< m, from the part's middle to the camera
   double tilt = 0.5236;           ///< rad, of the camera off the vertical, from a side
   bool fuse = true;               ///< the estimator gets both clouds as one; else the second frame alone
-  double score = 0.9;             ///< a fit below is poor
+  double score = 0.99;            ///< a fit below is poor
   double deviation = 0.001;       ///< m: a fit is poor when lip_deviation() is above
   void visit(ConfigVisitor& v);
   void validate() const;

@@ -84,7 +84,7 @@ std::string why_look_again(const SecondLookConfig& config, const Sight& first, c
     const Part& part = parts[first.found.estimates[first.plan.plan->estimate].part];
     const Eigen::Vector3d middle = middle_W(first, first.plan.plan->estimate, parts);
     for (const Eigen::Vector3d& p_W : failed_W)
-      if ((middle - p_W).norm() < part.diameter / 4) return "a pick of it has just failed";
+      if ((middle - p_W).norm() < part.diameter / 4) return "a pick of it has failed";
   }
   return has(config, "poor_fit") ? why_poor(config, first, cell, parts) : "";
 }
@@ -196,7 +196,7 @@ StageTimes sum(const StageTimes& a, const StageTimes& b) {
 
 bool look_again(const LookRun& run, Sight& sight, PickRecord& record) {
   const Scenario& s = run.s;
-  const std::string why = why_look_again(s.second_look, sight, s.cell, run.context.parts, run.start.failed_W);
+  const std::string why = why_look_again(s.second_look, sight, s.cell, run.context.parts, run.failed_W);
   if (why.empty()) return false;
   const ObstacleMap heap = heap_without_robot(s.cell, sight.seen.view, sight.seen.X_WC_believed, s.cell.q_look);
   const std::optional<LookRequest> request = look_request(s, sight, run.context.parts, heap);

@@ -1,5 +1,5 @@
 // A second look before a pick: when nothing can be picked by the first one, when the fit of the part to be picked is
-// poor, or when a pick of it has just failed, the arm takes its camera near the part or to a side of it
+// poor, or when a pick of it has failed, the arm takes its camera near the part or to a side of it
 // (robot/look_pose), and the frames of both looks are fused (the paper's section 6 looks again from 300 mm above).
 #pragma once
 
@@ -20,9 +20,10 @@ struct LookRun {
   Seed seed;  ///< of the trial
   int pick = 0;
   PickStart start;
+  std::span<const Eigen::Vector3d> failed_W;  ///< middles of believed parts at which picks have failed
 };
 
-/// Why the arm should look again, one phrase; empty: it need not. `failed_W` as for the planner.
+/// Why the arm should look again, one phrase; empty: it need not.
 std::string why_look_again(const SecondLookConfig& config, const Sight& first, const Cell& cell,
                            std::span<const Part> parts, std::span<const Eigen::Vector3d> failed_W);
 

@@ -81,6 +81,7 @@ struct Run {
   Seed seed;
   TrialPictures* pictures;
   std::vector<Eigen::Vector3d> failed_W;  // middles of believed parts at which picks have failed since the last success
+  std::vector<Eigen::Vector3d> ever_failed_W;  // and since the first look: whoever succeeds elsewhere forgets nothing
 };
 
 // The arm moves: what comes of it.
@@ -123,7 +124,7 @@ PickRecord pick_once(Run& run, int pick) {
     run.pictures->look(pick, "", *run.context.renderer, run.cell_world, sight.seen.captures[0].frame, sight.found);
     if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), sight.seen.view, sight.found);
   }
-  const LookRun look{run.s, run.cell_world, run.context, run.seed, pick, start};
+  const LookRun look{run.s, run.cell_world, run.context, run.seed, pick, start, run.ever_failed_W};
   const bool looked_again = look_again(look, sight, record);
   if (looked_again && run.pictures)
     run.pictures->look(pick, "second_", *run.context.renderer, run.cell_world, sight.seen.captures.back().frame,
@@ -132,7 +133,9 @@ PickRecord pick_once(Run& run, int pick) {
   if (sight.plan.plan) {
     execute_plan(run, *sight.plan.plan, pick, record);
     const Part& part = run.context.parts[sight.found.estimates[sight.plan.plan->estimate].part];
-    run.failed_W.push_back(sight.plan.plan->X_WP_est * part.box_center_P);
+    const Eigen::Vector3d middle_W = sight.plan.plan->X_WP_est * part.box_center_P;
+    run.failed_W.push_back(middle_W);
+    if (record.outcome != PickOutcome::kSucceeded) run.ever_failed_W.push_back(middle_W);
   }
   const double away = (run.cell_world.joints() - run.s.cell.q_look).cwiseAbs().maxCoeff();
   if (away > 1e-6) return_home(look, record);  // nothing was picked from where the second look was taken
@@ -170,7 +173,7 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   record.woken_share = heap.woken.moved_share;
   record.drop_hash = cell_world.world().state_hash();
   if (heap.settled && heap.escaped.empty()) {
-    Run run_state{s, cell_world, context, seed, pictures, {}};
+    Run run_state{s, cell_world, context, seed, pictures, {}, {}};
     pick_until_done(run_state, record);
     return;
   }
