@@ -95,6 +95,7 @@ struct BareBullet::Impl : World::Impl::Observer {
     const Pause pause(*this);
     follow();
     world->getSolverInfo().m_numIterations = iterations;
+    dispatcher.set_tolerance(ours.dispatcher->tolerance());
     length = dt;
     if (report.steps % 2 == 0) step();
   }
@@ -169,7 +170,7 @@ struct BareBullet::Impl : World::Impl::Observer {
   World::Impl& ours;
   std::function<double()> cpu_now;
   btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher;
+  QuietPairs dispatcher;
   btDbvtBroadphase broadphase;
   HeapSolver solver;
   std::unique_ptr<btDiscreteDynamicsWorld> world;

@@ -81,7 +81,7 @@ void watch_until_it_stays(World& world, std::span<const BodyId> bodies, const Se
     drop.settle_time += config.wake_time + report.time;
     drop.damped = drop.damped || report.damped;
     if (report.at_rest) continue;
-    drop.unsettled = "the heap was not at rest within the time limit";
+    drop.unsettled = "a part moved on when the heap at rest was woken, and the time was over before all lay still again";
     return;
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/bullet_convert.hpp"
+#include "sim/quiet_pairs.hpp"
 #include "sim/world.hpp"
 
 namespace binpick {
@@ -71,7 +72,8 @@ struct World::Impl {
   Body& at(BodyId body);
   const Body& at(BodyId body) const;
   void join_world(Body& body);
-  void advance(double dt, int iterations);
+  /// `search_motion`: QuietPairs::set_tolerance.
+  void advance(double dt, int iterations, double search_motion);
   void aim_moved_bodies();
   void land_moved_bodies();
 
@@ -92,7 +94,7 @@ struct World::Impl {
   bool freezing = false;
   Observer* observer = nullptr;
   std::unique_ptr<btDefaultCollisionConfiguration> collision_configuration;
-  std::unique_ptr<btCollisionDispatcher> dispatcher;
+  std::unique_ptr<QuietPairs> dispatcher;
   std::unique_ptr<btDbvtBroadphase> broadphase;
   std::unique_ptr<btSequentialImpulseConstraintSolver> solver;
   std::unique_ptr<btDiscreteDynamicsWorld> world;
