@@ -95,6 +95,7 @@ Comparison compare(const PileSet& base, const PileSet& fresh, const GateRules& r
   result.base = without_piles(base);
   result.fresh = without_piles(fresh);
   result.rules = rules;
+  result.look = look;
   const Pairs pairs = pair_up(base, fresh, result);
   result.pairs = pairs.base.size();
   compare_bits(pairs, result);

@@ -61,6 +61,7 @@ struct Look {
 struct Comparison {
   PileSet base, fresh;  ///< without their piles
   GateRules rules;
+  Look look;                                         ///< the budgets that findings and intervals were judged by
   std::size_t pairs = 0;                             ///< seeds that were compared
   std::size_t only_base = 0, only_fresh = 0;         ///< seeds without a partner
   std::vector<std::uint64_t> base_crashes, crashes;  ///< seeds left out of the tests

@@ -147,8 +147,8 @@ std::string comparison_json(const Comparison& c) {
   for (const BitDifference& d : c.differences) {
     json["bits"]["seeds"].push_back({{"seed", d.seed}, {"turn", d.turn}, {"stage", to_string(d.stage)}});
   }
-  json["alpha"] = c.rules.alpha;
-  json["confidence"] = c.rules.confidence;
+  json["alpha"] = {{"family", c.rules.alpha}, {"look", c.look.alpha}};
+  json["confidence"] = c.look.confidence;
   json["metrics"] = Json::array();
   for (const MetricComparison& m : c.metrics) json["metrics"].push_back(metric_json(m));
   json["flips"] = Json::array();

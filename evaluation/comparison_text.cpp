@@ -132,17 +132,17 @@ std::vector<Row> metric_rows(const Comparison& c) {
   return rows;
 }
 
+// "95 %", "99.75 %": without zeros at the end.
+std::string confidence(const Comparison& c) {
+  std::string digits = text::fixed(100 * c.look.confidence, 3);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits + " %";
+}
+
 Row head(const Comparison& c) {
-  return {"",
-          "base",
-          "new",
-          "loss",
-          text::fixed(100 * c.rules.confidence, 0) + " % interval of the loss",
-          "margin",
-          "piles worse / better",
-          "p",
-          "p (Holm)",
-          "finding"};
+  return {"",  "base",     "new",    "loss", confidence(c) + " interval of the loss", "margin", "piles worse / better",
+          "p", "p (Holm)", "finding"};
 }
 
 // Where every bit is equal there is nothing to test: the values alone.
@@ -173,7 +173,9 @@ std::vector<std::string> notes(const Comparison& c) {
                     std::to_string(c.only_fresh) + " of the new version have no partner");
   }
   if (!words::crashes(c).empty()) lines.push_back(words::crashes(c));
-  lines.push_back("alpha " + words::p_value(c.rules.alpha) + " over all metrics (Holm); the unit is the pile");
+  const std::string spent =
+      c.look.alpha < c.rules.alpha ? " (of which " + words::p_value(c.look.alpha) + " at this look)" : "";
+  lines.push_back("alpha " + words::p_value(c.rules.alpha) + spent + " over all metrics (Holm); the unit is the pile");
   return lines;
 }
 
@@ -186,8 +188,8 @@ std::string sentence(const Comparison& c) {
   switch (c.verdict) {
     case Verdict::kNoBitChanged:
       bits[0] = 'N';
-      return crashed + bits + ": pass (at 95 % a change can touch at most " + text::percent(c.changed_share.high) +
-             " of the piles).";
+      return crashed + bits + ": pass (at " + confidence(c) + " a change can touch at most " +
+             text::percent(c.changed_share.high) + " of the piles).";
     case Verdict::kHolds:
       return crashed + "Pass: " + where + ", and no metric is worse by its margin.";
     case Verdict::kWorse:
