@@ -120,9 +120,14 @@ std::vector<CollisionCheck::Placed> CollisionCheck::robot_at(const Vector6d& q) 
   return movers;
 }
 
-Obstacle CollisionCheck::hit(const Vector6d& q) const {
-  const Obstacle tool = tool_hit(cell_->X_WR * cell_->arm->forward(q));
-  if (tool != Obstacle::kNone) return tool;
+Obstacle CollisionCheck::hit(const Vector6d& q, bool lips) const {
+  const Pose X_WF = cell_->X_WR * cell_->arm->forward(q);
+  if (const Obstacle tool = tool_hit(X_WF); tool != Obstacle::kNone) return tool;
+  for (const Solid& lip : lips_F_) {
+    if (!lips) break;
+    const Obstacle obstacle = standing_hit({&lip, X_WF * lip.shape.X_OS});
+    if (obstacle != Obstacle::kNone) return obstacle;
+  }
   const std::vector<Placed> movers = robot_at(q);
   for (const Placed& placed : movers) {
     // Base and column stand on the table; the tool has been looked at.
@@ -158,19 +163,19 @@ std::vector<char> CollisionCheck::near_robot(const std::vector<Eigen::Vector3d>&
   return own;
 }
 
-Obstacle CollisionCheck::path_hit(const JointTrajectory& path, double step) const {
+Obstacle CollisionCheck::path_hit(const JointTrajectory& path, double step, bool lips) const {
   if (path.empty()) return Obstacle::kNone;
   // A turn of joint i moves nothing further than the arm and tool reach beyond it.
   const Vector6d lever = (Vector6d() << 1.0, 1.0, 0.8, 0.4, 0.4, 0.25).finished();
   Vector6d last = path.q.front();
-  Obstacle obstacle = hit(last);
+  Obstacle obstacle = hit(last, lips);
   for (std::size_t k = 1; k < path.q.size() && obstacle == Obstacle::kNone; ++k) {
     const Vector6d way = path.q[k] - last;
     const double moved = way.cwiseAbs().dot(lever);
     if (moved < step && k + 1 < path.q.size()) continue;
     const int pieces = std::max(1, static_cast<int>(std::ceil(moved / step)));
     for (int i = 1; i <= pieces && obstacle == Obstacle::kNone; ++i)
-      obstacle = hit(last + way * (static_cast<double>(i) / pieces));
+      obstacle = hit(last + way * (static_cast<double>(i) / pieces), lips);
     last = path.q[k];
   }
   return obstacle;

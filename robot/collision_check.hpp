@@ -23,12 +23,13 @@ class CollisionCheck {
   void set_heap(const ObstacleMap* heap) { heap_ = heap; }
   void set_ignored(std::vector<char> ignored) { ignored_ = std::move(ignored); }
 
-  /// The first obstacle met by the arm, the tool or the camera at q.
-  Obstacle hit(const Vector6d& q) const;
+  /// The first obstacle met by the arm, the tool or the camera at q; with `lips`, by the lips too. At a contact they
+  /// may touch the bin, for they give way; on a free way they may not.
+  Obstacle hit(const Vector6d& q, bool lips = false) const;
   /// The same for tool and camera alone, flange at X_WF: quicker, and asks for no inverse kinematics.
   Obstacle tool_hit(const Pose& X_WF) const;
   /// The first obstacle along a trajectory, sampled so that nothing moves more than about `step` in between.
-  Obstacle path_hit(const JointTrajectory& path, double step = 0.02) const;
+  Obstacle path_hit(const JointTrajectory& path, double step = 0.02, bool lips = false) const;
   /// The points that are not within `margin` of arm, tool or camera at q: a camera sees its own robot too.
   std::vector<Eigen::Vector3d> without_robot(const std::vector<Eigen::Vector3d>& points_W, const Vector6d& q,
                                              double margin) const;

@@ -19,6 +19,7 @@ constexpr int kTurns = 12;         // of the camera about its axis, and of the s
 constexpr double kFarther = 0.05;  // m
 constexpr int kFartherSteps = 4;
 constexpr std::size_t kPostures = 2;    // of the arm a pose
+constexpr double kStep = 0.01;          // m, along the way to the look
 constexpr double kSight = 0.01;         // m, steps along the line of sight
 constexpr double kRobotMargin = 0.025;  // m, as in plan_pick
 
@@ -114,9 +115,9 @@ std::optional<LookPlan> plan_look(const Cell& cell, const LookRequest& request, 
   for (int step = 0; step <= kFartherSteps; ++step) {
     const double distance = request.distance + step * kFarther;
     for (const Way& way : ways(cell, request, distance)) {
-      if (check.hit(way.q) != Obstacle::kNone) continue;
+      if (check.hit(way.q, true) != Obstacle::kNone) continue;
       const JointTrajectory there = joint_move(*cell.arm, cell.q_look, way.q, cell.motion);
-      if (check.path_hit(there) == Obstacle::kNone) return LookPlan{way.q, there, distance};
+      if (check.path_hit(there, kStep, true) == Obstacle::kNone) return LookPlan{way.q, there, distance};
     }
   }
   return std::nullopt;

@@ -14,9 +14,10 @@ constexpr double kCarryGap = 0.010;  // m, between a carried part and bin, tray,
 constexpr double kLeaning = 0.2;     // rad, parts that lean more are drawn off along their normal first
 constexpr double kDrawOff = 0.030;   // m
 constexpr double kShortApproach = 0.4;
-constexpr int kYaws = 12;           // turns of the tool over the tray that are tried
-constexpr std::size_t kStarts = 4;  // arm postures per tip pose that are tried
-constexpr int kWays = 8;            // ways to the tray that are checked in full
+constexpr double kFreeStep = 0.010;  // m, sampling of a way that begins inside the bin
+constexpr int kYaws = 12;            // turns of the tool over the tray that are tried
+constexpr std::size_t kStarts = 4;   // arm postures per tip pose that are tried
+constexpr int kWays = 8;             // ways to the tray that are checked in full
 
 /// z of the lowest point of `points_A` at X_WA.
 double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
@@ -89,8 +90,8 @@ bool MotionPlanner::plan_approach(const PickTask& task, double approach, Planned
 /// From where the arm stands to q_start; where that is blocked, back to the look pose first, the way it came.
 Obstacle MotionPlanner::way_to(const Vector6d& q_start, JointTrajectory& way) const {
   way = joint_move(*cell_.arm, q_now_, q_start, cell_.motion);
-  const Obstacle hit = check_.path_hit(way);
-  if (hit == Obstacle::kNone || q_now_ == cell_.q_look) return hit;
+  if (q_now_ == cell_.q_look) return check_.path_hit(way);
+  if (check_.path_hit(way, kFreeStep, true) == Obstacle::kNone) return Obstacle::kNone;
   const JointTrajectory rest = joint_move(*cell_.arm, cell_.q_look, q_start, cell_.motion);
   way = joined(joint_move(*cell_.arm, q_now_, cell_.q_look, cell_.motion), rest);
   return check_.path_hit(rest);

@@ -29,7 +29,7 @@ void expect_looks_at(const Cell& cell, const LookPlan& plan, const LookRequest& 
   const CollisionCheck check(cell, 0);
   EXPECT_EQ(plan.there.q.front(), cell.q_look);
   EXPECT_EQ(plan.there.q.back(), plan.q);
-  EXPECT_EQ(check.path_hit(plan.there, 0.005), Obstacle::kNone);
+  EXPECT_EQ(check.path_hit(plan.there, 0.005, true), Obstacle::kNone);
   const Eigen::Vector3d aim_C = cell.camera_pose(plan.q).inverse() * request.aim_W;
   EXPECT_LT((aim_C - Eigen::Vector3d(0, 0, plan.distance)).norm(), 1e-6);
 }
