@@ -60,10 +60,11 @@ Pairs pair_up(const PileSet& base, const PileSet& fresh, Comparison& result) {
 }
 
 void compare_bits(const Pairs& pairs, Comparison& result) {
+  const bool same_schema = result.base.record_schema == result.fresh.record_schema;
   for (std::size_t i = 0; i < pairs.base.size(); ++i) {
     const PileFigures &base = *pairs.base[i], &fresh = *pairs.fresh[i];
     result.equal_heaps += base.heap_hash == fresh.heap_hash ? 1 : 0;
-    const std::optional<BitDifference> difference = first_difference(base, fresh);
+    const std::optional<BitDifference> difference = first_difference(base, fresh, same_schema);
     if (!difference) continue;
     result.differences.push_back(*difference);
     ++result.differing_stages[to_string(difference->stage)];
@@ -86,7 +87,9 @@ Verdict verdict_of(const Comparison& comparison) {
   return any(Finding::kUnclear) || !any(Finding::kHolds) ? Verdict::kInconclusive : Verdict::kHolds;
 }
 
-PileSet without_piles(const PileSet& set) { return {set.name, set.replay, set.scenario, set.scenario_hash, {}}; }
+PileSet without_piles(const PileSet& set) {
+  return {set.name, set.replay, set.scenario, set.scenario_hash, set.record_schema, {}};
+}
 
 }  // namespace
 

@@ -164,6 +164,10 @@ std::vector<std::string> notes(const Comparison& c) {
     lines.push_back("scenarios differ: " + c.base.scenario + " " + c.base.scenario_hash + ", " + c.fresh.scenario +
                     " " + c.fresh.scenario_hash);
   }
+  if (c.base.record_schema != c.fresh.record_schema) {
+    lines.push_back("records of schema " + std::to_string(c.base.record_schema) + " and " +
+                    std::to_string(c.fresh.record_schema) + ": of their contents only the figures above are compared");
+  }
   if (c.equal_heaps < c.pairs) {
     lines.push_back("only " + std::to_string(c.equal_heaps) + " of " + std::to_string(c.pairs) +
                     " seeds start from the same heap: where it differs, pairing by seed brings nothing");

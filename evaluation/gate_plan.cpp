@@ -16,7 +16,7 @@ double smallest_share_margin(const Comparison& comparison) {
 }
 
 PileSet first_piles(const PileSet& set, std::uint64_t last_seed) {
-  PileSet part{set.name, set.replay, set.scenario, set.scenario_hash, {}};
+  PileSet part{set.name, set.replay, set.scenario, set.scenario_hash, set.record_schema, {}};
   for (const PileFigures& pile : set.piles) {
     if (pile.seed <= last_seed) part.piles.push_back(pile);
   }

@@ -53,6 +53,14 @@ ClusterCount count_first_look(const TrialRecord& record) {
   return count(record.picks.front().check.found, record.picks.front().check.visible);
 }
 
+bool same_figures(const PileFigures& a, const PileFigures& b) {
+  const auto same = [](const ClusterCount& x, const ClusterCount& y) { return x.hits == y.hits && x.total == y.total; };
+  return a.crashed == b.crashed && same(a.picks, b.picks) && same(a.cleared, b.cleared) && same(a.recall, b.recall) &&
+         same(a.recall_first_look, b.recall_first_look) && same(a.precision, b.precision) &&
+         a.first_pick == b.first_pick && a.missed == b.missed && a.translations == b.translations &&
+         a.rotations == b.rotations && a.cycles == b.cycles;
+}
+
 PileFigures figures_of(const TrialRecord& record) {
   PileFigures pile;
   pile.seed = record.seed.key;

@@ -36,6 +36,9 @@ struct PileFigures {
   std::vector<double> cycles;                   ///< simulated, of succeeded picks, to 1 us
 };
 
+/// Everything above but hashes.
+bool same_figures(const PileFigures& a, const PileFigures& b);
+
 /// Counts shared with the summary. Attempted: every turn but BinEmpty, whatever ended it.
 ClusterCount count_picks(const TrialRecord& record);
 ClusterCount count_first_look(const TrialRecord& record);
@@ -44,11 +47,12 @@ PileFigures figures_of(const TrialRecord& record);
 
 /// The piles of one version: a run folder, or a baseline file.
 struct PileSet {
-  std::string name;                ///< path as given
-  std::string replay;              ///< scene to replay a seed with; empty: unknown
-  std::string scenario;            ///< its name
-  std::string scenario_hash;       ///< of the expanded scenario
-  std::vector<PileFigures> piles;  ///< ascending seeds
+  std::string name;                   ///< path as given
+  std::string replay;                 ///< scene to replay a seed with; empty: unknown
+  std::string scenario;               ///< its name
+  std::string scenario_hash;          ///< of the expanded scenario
+  int record_schema = kRecordSchema;  ///< of the records behind it: another one has other contents
+  std::vector<PileFigures> piles;     ///< ascending seeds
 };
 
 PileSet pile_set(const std::string& run_folder, std::span<const TrialRecord> records);

@@ -1,4 +1,5 @@
-// A baseline file: {"binpick_baseline":1,"scenario":..,"scenario_hash":..,"piles":n}, then one line per seed.
+// A baseline file: {"binpick_baseline":1,"scenario":..,"scenario_hash":..,"record_schema":..,"piles":n}, then one line
+// per seed.
 #include "evaluation/json_archive.hpp"
 #include "evaluation/pile_figures.hpp"
 
@@ -44,6 +45,7 @@ template <class Archive, class Set, class Number>
 void header_fields(Archive& archive, Set& set, Number& piles) {
   archive("scenario", set.scenario);
   archive("scenario_hash", set.scenario_hash);
+  archive("record_schema", set.record_schema);
   archive("piles", piles);
 }
 

@@ -21,8 +21,10 @@ struct BitDifference {
   Stage stage = Stage::kHeap;
 };
 
-/// The first stage in which two trials of one seed differ; none: every bit is equal.
-std::optional<BitDifference> first_difference(const PileFigures& base, const PileFigures& fresh);
+/// The first stage in which two trials of one seed differ; none: every bit is equal. Records of another schema have
+/// other contents always: then only the figures of the comparison are looked at, besides the stages.
+std::optional<BitDifference> first_difference(const PileFigures& base, const PileFigures& fresh,
+                                              bool same_schema = true);
 /// "turn 3: estimates"; turns of the loop count from 0, as in records.
 std::string describe(const BitDifference& difference);
 

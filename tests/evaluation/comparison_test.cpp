@@ -65,6 +65,17 @@ TEST(StageBits, NamesTheFirstStageThatDiffers) {
   EXPECT_EQ(stage_after([](TrialRecord& r) { r.scenario_hash = "1234567890abcdef", r.wall_total = 99; }), "none");
 }
 
+// A record of another schema has other contents always: stages and figures decide.
+TEST(StageBits, AnotherSchemaIsNoDifference) {
+  const PileFigures base = figures_of(pile(7, 2));
+  PileFigures fresh = base;
+  fresh.content_hash = 5;
+  EXPECT_TRUE(first_difference(base, fresh));
+  EXPECT_FALSE(first_difference(base, fresh, false));
+  fresh.translations[3] += 1e-6;
+  EXPECT_EQ(describe(first_difference(base, fresh, false).value()), "figures of the record");
+}
+
 TEST(Compare, EqualBitsNeedNoTest) {
   const std::vector<TrialRecord> records = piles(60, [](std::size_t i) { return i % 3 == 0 ? 1 : 0; });
   const Comparison same = compare(set_of("a", records), set_of("b", records), {});

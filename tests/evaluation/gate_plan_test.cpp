@@ -12,7 +12,8 @@ namespace {
 
 // Piles of ten picks that succeed with `rate`; good and bad piles are the same for all versions of one `pile_stream`.
 PileSet simulated(std::uint64_t run, const std::string& version, double rate, std::size_t count) {
-  PileSet set{version, "", "simulated", version, {}};
+  PileSet set;
+  set.name = version;
   for (std::size_t i = 0; i < count; ++i) {
     Rng pile = Seed{run}.child("pile", i).rng(), luck = Seed{run}.child(version, i).rng();
     const double here = rate * (pile.uniform() < 0.9 ? 1.04 : 0.64);  // 0.9 * 1.04 + 0.1 * 0.64 = 1

@@ -48,6 +48,14 @@ class Bench {
   }
 
   int run() {
+    if (!real())
+      std::printf(
+          "piles of %d picks at %.0f %%, spread %.2f (design effect %.1f), %.0f %% of the luck shared; at most %zu "
+          "seeds "
+          "in blocks of %zu, alpha %g\n",
+          options_.law.picks, 100 * options_.law.base_rate, options_.law.spread, design_effect(options_.law),
+          100 * options_.law.shared, options_.config.plan.max_seeds, options_.config.plan.block,
+          options_.config.rules.alpha);
     if (options_.equal > 0) equal();
     if (options_.power > 0) power();
     if (options_.coverage > 0) coverage();

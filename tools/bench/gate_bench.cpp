@@ -11,7 +11,11 @@ struct Ending {
   std::size_t seeds = 0;
 };
 
-PileSet set_of(const char* name) { return {name, "", "simulated", "", {}}; }
+PileSet set_of(const char* name) {
+  PileSet set;
+  set.name = name;
+  return set;
+}
 
 Ending run_one(const GateBenchConfig& config, const std::vector<PilePair>& pairs) {
   PileSet base = set_of("base"), fresh = set_of("new");

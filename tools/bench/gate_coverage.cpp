@@ -28,10 +28,18 @@ void take(CoverageRow& row, double covered, const std::string& where, std::size_
   if (row.worst.empty() || covered < row.covered) row.covered = covered, row.worst = where;
 }
 
-std::string at(double rate, std::size_t n, double spread) {
-  char text[80];
-  std::snprintf(text, sizeof text, "rate %.2f, %zu piles, spread %.2f", rate, n, spread);
-  return text;
+std::vector<PileLaw> laws() {
+  std::vector<PileLaw> all;
+  for (const double rate : {0.80, 0.95})
+    for (const double loss : {0.0, 0.05})
+      for (const double spread : {0.08, 0.15}) {
+        PileLaw& law = all.emplace_back();
+        law.base_rate = rate;
+        law.new_rate = rate - loss;
+        law.spread = spread;
+        law.errors = 0;
+      }
+  return all;
 }
 
 struct Covered {
@@ -41,7 +49,7 @@ struct Covered {
 // One experiment: `n` piles, the interval of the base's rate, and that of the loss against an equal version.
 Covered experiment(const PileLaw& law, std::size_t n, Rng& rng, Seed seed) {
   std::vector<ClusterCount> counts;
-  PileSet base{"base", "", "", "", {}}, fresh{"new", "", "", "", {}};
+  PileSet base, fresh;
   for (std::size_t i = 0; i < n; ++i) {
     const PilePair pair = draw_pair(law, i, rng);
     counts.push_back(pair.base.picks);
@@ -75,39 +83,31 @@ std::vector<CoverageRow> binomial_coverage() {
 }
 
 std::vector<CoverageRow> pile_coverage(int runs, int threads) {
-  CoverageRow rate_row{"cluster bootstrap", "a rate of picks, the pile as unit", 0, 0, ""};
-  CoverageRow loss_row{"paired bootstrap", "a loss of 0 or 5 points", 0, 0, ""};
-  struct Point {
-    double rate, loss, spread;
-    std::size_t piles;
-  };
-  std::vector<Point> points;
-  for (const double rate : {0.80, 0.95})
-    for (const double loss : {0.0, 0.05})
-      for (const double spread : {0.08, 0.15})
-        for (const std::size_t piles : {30, 100, 300}) points.push_back({rate, loss, spread, piles});
-  for (const Point& point : points) {
-    PileLaw law;
-    law.base_rate = point.rate;
-    law.new_rate = point.rate - point.loss;
-    law.spread = point.spread;
-    law.errors = 0;
-    std::vector<Covered> covered(static_cast<std::size_t>(runs));
-    const std::string where = at(point.rate, point.piles, point.spread);
-    const Seed seed = Seed{}.child("bench/gate/coverage").child(where + (point.loss > 0 ? " loss" : ""));
-    parallel_for(covered.size(), threads, [&](std::size_t i) {
-      Rng rng = seed.child("piles", i).rng();
-      covered[i] = experiment(law, point.piles, rng, seed.child("bootstrap", i));
-    });
-    const auto share = [&](bool Covered::*member) {
-      return static_cast<double>(
-                 std::count_if(covered.begin(), covered.end(), [&](const Covered& c) { return c.*member; })) /
-             runs;
-    };
-    take(rate_row, share(&Covered::rate), where, points.size());
-    take(loss_row, share(&Covered::loss), where, points.size());
+  std::vector<CoverageRow> rows;
+  for (const std::size_t piles : {30, 100, 300}) {
+    const std::string number = ", " + std::to_string(piles) + " piles";
+    CoverageRow rate{"cluster bootstrap", "rate of picks" + number, 0, 0, ""};
+    CoverageRow loss{"paired bootstrap", "loss of 0 or 5 points" + number, 0, 0, ""};
+    for (const PileLaw& law : laws()) {
+      char where[80];
+      std::snprintf(where, sizeof where, "%.0f -> %.0f %%, spread %.2f", 100 * law.base_rate, 100 * law.new_rate,
+                    law.spread);
+      const Seed seed = Seed{}.child("bench/gate/coverage").child(where, piles);
+      std::vector<Covered> covered(static_cast<std::size_t>(runs));
+      parallel_for(covered.size(), threads, [&](std::size_t i) {
+        Rng rng = seed.child("piles", i).rng();
+        covered[i] = experiment(law, piles, rng, seed.child("bootstrap", i));
+      });
+      const auto share = [&](bool Covered::*member) {
+        const auto hits = std::count_if(covered.begin(), covered.end(), [&](const Covered& c) { return c.*member; });
+        return static_cast<double>(hits) / runs;
+      };
+      take(rate, share(&Covered::rate), where, laws().size());
+      take(loss, share(&Covered::loss), where, laws().size());
+    }
+    rows.insert(rows.end(), {rate, loss});
   }
-  return {rate_row, loss_row};
+  return rows;
 }
 
 }  // namespace binpick
