@@ -85,7 +85,10 @@ const std::vector<std::string> kOccasions = {"no_plan", "poor_fit", "failed"};
 }  // namespace
 
 void SecondLookConfig::visit(ConfigVisitor& v) {
-  v.command("when", when, "occasions: no_plan, poor_fit (of the part to be picked), failed (a pick of it has)");
+  v.command("when", when,
+            "occasions: no_plan, poor_fit (of the part to be picked), failed (a pick of it has); default poor_fit and "
+            "failed with "
+            "ppf and a camera on the flange, else none");
   for (const std::string& occasion : when)
     if (std::find(kOccasions.begin(), kOccasions.end(), occasion) == kOccasions.end())
       v.fail("when", "'" + occasion + "' is none of no_plan, poor_fit, failed; did you mean '" +

@@ -101,8 +101,11 @@ void visit_estimator(ConfigVisitor& v, Scenario& s) {
   if (!s.estimator && s.estimator_type != "oracle") s.estimator = make_estimator(s.estimator_type);
 }
 
-// `second_look:` is `off` or a mapping.
-void visit_second_look(ConfigVisitor& v, SecondLookConfig& config) {
+// `second_look:` is `off` or a mapping. What is not said is on where it helps: with a camera that can be moved, and
+// with the estimator whose score is a probability, so that a poor fit can be told.
+void visit_second_look(ConfigVisitor& v, Scenario& s) {
+  SecondLookConfig& config = s.second_look;
+  if (v.reading() && s.estimator_type == "ppf" && s.cell.camera.mount == "flange") config.when = {"poor_fit", "failed"};
   if (v.reading() && v.is_scalar("second_look")) {
     std::string word;
     v.choice("second_look", word, {"off"}, "");
@@ -170,7 +173,7 @@ void Scenario::visit(ConfigVisitor& v) {
   visit_estimator(v, *this);
   v.section("planning", planning, "the pick planner");
   v.section("execution", execution, "the executed pick");
-  visit_second_look(v, second_look);
+  visit_second_look(v, *this);
   v.section("trial", trial, "when a trial ends");
 }
 

@@ -93,7 +93,9 @@ std::optional<LookRequest> look_request(const Scenario& s, const Sight& first, s
                                         const ObstacleMap& heap) {
   LookRequest request;
   request.from = s.second_look.from;
-  request.distance = s.second_look.distance;
+  double largest = 0;
+  for (const Part& part : parts) largest = std::max(largest, part.diameter);
+  request.distance = std::max(s.second_look.distance, s.sensor->z_min() + largest / 2);  // nearer it sees nothing
   request.tilt = s.second_look.tilt;
   request.clearance = s.planning.clearance;
   if (first.plan.plan) {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/yaml.hpp"
 #include "trials/trial.hpp"
 
 namespace binpick {
@@ -102,6 +103,13 @@ TEST(LookRequest, AimsAtThePartToBePickedOrElseTheHighestOfWhatWasSeen) {
   ASSERT_TRUE(request.has_value());
   EXPECT_LT((request->aim_W - known.s.cell.X_WB * known.parts[0].box_center_P).norm(), 1e-9);
   EXPECT_LT((request->normal_W - Eigen::Vector3d::UnitZ()).norm(), 1e-6);
+  EXPECT_EQ(request->distance, 0.3);
+  const std::shared_ptr<SensorModel> near = known.s.sensor;
+  known.s.sensor = make_sensor("disparity");
+  read_yaml_text("preset: d415_1280", "test", "", [&](ConfigVisitor& v) { known.s.sensor->visit(v); });
+  request = look_request(known.s, known.sight, known.parts, heap);
+  EXPECT_NEAR(request->distance, 0.402 + known.parts[0].diameter / 2, 1e-12);  // this camera is blind below 402 mm
+  known.s.sensor = near;
   known.sight.plan.plan.reset();
   known.sight.found.estimates.clear();
   request = look_request(known.s, known.sight, known.parts, heap);
@@ -112,6 +120,8 @@ TEST(LookRequest, AimsAtThePartToBePickedOrElseTheHighestOfWhatWasSeen) {
 
 TEST(SecondLook, TheRecordSaysWhyAndWhatItCost) {
   const std::unique_ptr<Loaded> scene = load("bearing_bin.yaml");
+  EXPECT_EQ(scene->scenario.second_look.when, (std::vector<std::string>{"poor_fit", "failed"}));  // the default
+  scene->scenario.second_look.when.clear();
   const TrialRecord once = run_trial(scene->scenario, Seed{3}, scene->context);
   EXPECT_EQ(once.picks.at(0).second_look, "");
   EXPECT_EQ(once.picks.at(0).look_time, 0);
@@ -211,6 +221,9 @@ TEST(SecondLook, ScenesSayOffOrWhen) {
   };
   EXPECT_TRUE(scene("second_look: off").second_look.when.empty());
   EXPECT_EQ(scene("second_look: {when: [failed], from: side}").second_look.from, "side");
+  EXPECT_EQ(scene("second_look: {from: side}").second_look.when.size(), 2u);
+  EXPECT_TRUE(scene("estimator: {type: oracle}").second_look.when.empty());  // its score is no probability
+  EXPECT_TRUE(scene("fixed ").second_look.when.empty());
   EXPECT_THROW(scene("second_look: on"), SpecError);
   EXPECT_THROW(scene("second_look: {when: [bored]}"), SpecError);
   try {
