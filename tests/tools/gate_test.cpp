@@ -53,9 +53,10 @@ TEST(GateProgram, BadInputIsOneLine) {
   const std::string pile =
       R"("crashed":false,"heap":"0000000000000000","turns":[],"content":"0000000000000000","picks":[1,1],"cleared":[1,1],"recall":[1,1],)"
       R"("recall_first_look":[1,1],"precision":[1,1],"first_pick":"","missed":0,"translations":[],"rotations":[],"cycles":[]})";
-  write_file(folder.path("gap.jsonl"), R"({"binpick_baseline":1,"scenario":"a","scenario_hash":"b","piles":2})"
-                                       "\n{\"seed\":3," +
-                                           pile + "\n{\"seed\":5," + pile + "\n");
+  write_file(folder.path("gap.jsonl"),
+             R"({"binpick_baseline":1,"scenario":"a","scenario_hash":"b","record_schema":4,"piles":2})"
+             "\n{\"seed\":3," +
+                 pile + "\n{\"seed\":5," + pile + "\n");
   const std::pair<std::string, std::string> cases[] = {
       {" --baseline " + folder.path("none.jsonl"), "none.jsonl: there is neither a run folder nor a baseline file"},
       {" --baseline " + folder.path("gap.jsonl"), "gap.jsonl: seed 4 is missing"},
