@@ -36,7 +36,7 @@ std::string why_poor(const SecondLookConfig& config, const Sight& first, const C
   const PickPlan& plan = *first.plan.plan;
   const PoseEstimate& chosen = first.found.estimates[plan.estimate];
   char text[80];
-  std::snprintf(text, sizeof text, "poor fit: score %.2f", chosen.score);
+  std::snprintf(text, sizeof text, "poor fit: score %.3f", chosen.score);
   if (chosen.score < config.score) return text;
   const double deviation = lip_deviation(chosen, first.seen.X_WC_believed, plan, parts[chosen.part], *cell.gripper);
   if (deviation > config.deviation) return "poor fit: the lips' place is known to " + millimetres(deviation);

@@ -63,7 +63,7 @@ TEST(WhyLookAgain, NotWhenThePickIsSureAndNew) {
 TEST(WhyLookAgain, ForALowScoreOrLipsThatAreNotKnownWell) {
   Known known;
   known.sight.found.estimates[0].score = 0.89;
-  EXPECT_EQ(known.why(), "poor fit: score 0.89");
+  EXPECT_EQ(known.why(), "poor fit: score 0.890");
   known.sight.found.estimates[0].score = 0.995;
   known.sight.found.estimates[0].covariance(2, 2) = 4e-6;
   EXPECT_EQ(known.why(), "poor fit: the lips' place is known to 2.0 mm");
