@@ -50,12 +50,11 @@ class Bench {
   int run() {
     if (!real())
       std::printf(
-          "piles of %d picks at %.0f %%, spread %.2f (design effect %.1f), %.0f %% of the luck shared; at most %zu "
-          "seeds "
-          "in blocks of %zu, alpha %g\n",
+          "piles of %d picks at %.0f %%, spread %.2f (design effect %.1f), %.0f %% of the piles redrawn, "
+          "%.0f %% of the luck shared; at most %zu seeds in blocks of %zu, alpha %g\n",
           options_.law.picks, 100 * options_.law.base_rate, options_.law.spread, design_effect(options_.law),
-          100 * options_.law.shared, options_.config.plan.max_seeds, options_.config.plan.block,
-          options_.config.rules.alpha);
+          100 * options_.law.redrawn, 100 * options_.law.shared, options_.config.plan.max_seeds,
+          options_.config.plan.block, options_.config.rules.alpha);
     if (options_.equal > 0) equal();
     if (options_.power > 0) power();
     if (options_.coverage > 0) coverage();
@@ -129,6 +128,8 @@ Action add_bench_gate(CLI::App& bench) {
   command->add_option("--max-seeds", options->config.plan.max_seeds, "of a gate")->check(CLI::Range(1, 100000));
   command->add_option("--block", options->config.plan.block, "seeds between two looks")->check(CLI::Range(1, 100000));
   command->add_option("--spread", options->law.spread, "of the rate from pile to pile")->check(CLI::Range(0.0, 0.2));
+  command->add_option("--redrawn", options->law.redrawn, "share of the piles that go another way")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--shared", options->law.shared, "share of the luck that is the same")
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--margins", options->margins, "YAML, as for `binpick gate`");

@@ -52,9 +52,9 @@ PilePair draw_pair(const PileLaw& law, std::uint64_t seed, Rng& rng) {
   PilePair pair;
   // The harder pile is harder for both: a failure of the base is one of the new version, which has some of its own.
   const double base_rate = beta(law.base_rate, law.spread, rng);
-  const double new_rate = law.new_rate <= law.base_rate
-                              ? base_rate * law.new_rate / law.base_rate
-                              : 1 - (1 - base_rate) * (1 - law.new_rate) / (1 - law.base_rate);
+  const double here = rng.uniform() < law.redrawn ? beta(law.base_rate, law.spread, rng) : base_rate;
+  const double new_rate = law.new_rate <= law.base_rate ? here * law.new_rate / law.base_rate
+                                                        : 1 - (1 - here) * (1 - law.new_rate) / (1 - law.base_rate);
   for (PileFigures* pile : {&pair.base, &pair.fresh}) {
     pile->seed = seed;
     pile->content_hash = rng.next_u64();
