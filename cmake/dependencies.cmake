@@ -11,7 +11,7 @@ if(BINPICK_WITH_SIM)
 
   pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
   find_package(embree 3 REQUIRED)
-  find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d)
+  find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc calib3d aruco)
 
   # Peers of the benchmark only (tools/bench/peers): a single module each, and neither need be there.
   find_package(OpenCV 4 QUIET COMPONENTS core surface_matching)

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "tools/commands.hpp"
+#include "tools/validate/calibration_bench.hpp"
 #include "tools/validate/physics_bench.hpp"
 #include "tools/validate/sensor_plots.hpp"
 #include "tools/validate/suction_bench.hpp"
@@ -13,7 +14,7 @@
 namespace binpick {
 namespace {
 
-constexpr int kQuickSeeds = 4;
+constexpr int kQuickSeeds = 4, kQuickCalibrations = 100;
 
 struct Options {
   std::string subject, json, plots, seeds;
@@ -71,7 +72,19 @@ std::vector<Verdict> validate_physics(const Options& options) {
   return lines;
 }
 
+std::vector<Verdict> validate_calibration(const Options& options) {
+  auto [first, last] = std::pair<std::uint64_t, std::uint64_t>(5000, 5000 + CalibrationBench::kFullDraws);
+  if (options.quick) last = first + kQuickCalibrations;
+  if (!options.seeds.empty()) std::tie(first, last) = parse_seeds(options.seeds);
+  if (last - first > 100000) throw SpecError("--seeds: at most 100000");
+  CalibrationBench bench(first, static_cast<int>(last - first));
+  for (void (*check)(CalibrationBench&) : {check_plate_pose, check_chain, report_pick_error, check_hand_eye})
+    check(bench);
+  return bench.verdicts();
+}
+
 std::vector<Verdict> validate(const Options& options) {
+  if (options.subject == "calibration") return validate_calibration(options);
   if (options.subject == "physics") return validate_physics(options);
   return options.subject == "suction" ? validate_suction(options) : validate_sensors(options);
 }
@@ -93,9 +106,11 @@ Action add_validate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("validate", "physical checks: measured value, expected value, verdict");
   command->add_option("subject", options->subject, "what to check")
       ->required()
-      ->check(CLI::IsMember({"sensors", "suction", "physics"}));
+      ->check(CLI::IsMember({"sensors", "suction", "physics", "calibration"}));
   command->add_flag("--quick", options->quick, "fewer seeds and smaller images, tolerances widened accordingly");
-  command->add_option("--seeds", options->seeds, "A:B, seeds A .. B-1; default 5000:5020, quick 5000:5004");
+  command->add_option(
+      "--seeds", options->seeds,
+      "A:B, seeds A .. B-1; default 5000:5020, quick 5000:5004; calibration 5000:6000, quick 5000:5100");
   command->add_option("--threads", options->threads, "results do not depend on it")->check(CLI::Range(1, 256));
   command->add_option("--json", options->json, "write the verdicts to this file");
   command->add_option("--plots", options->plots, "draw the curves beside the published ones into this folder");

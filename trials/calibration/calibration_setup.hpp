@@ -1,0 +1,32 @@
+// Where arm, plates and the fixed 2D camera stand while the camera on the flange is calibrated (paper 5.1). Frames: D
+// the fixed camera, Q a plate, F the flange, C the camera on it, R the robot's base.
+#pragma once
+
+#include <vector>
+
+#include "core/camera.hpp"
+#include "robot/cell.hpp"
+#include "trials/calibration/marker_plate.hpp"
+
+namespace binpick {
+
+struct CalibrationSetup {
+  const Cell* cell = nullptr;
+  MarkerPlate plate;
+  PinholeCamera camera_C;  ///< of the grey image of the camera on the flange
+  PinholeCamera camera_D{1280, 960, 920, 920, 639.5, 479.5};
+  Pose X_WD = Pose::Identity();
+  Pose X_FQ = Pose::Identity();         ///< the plate on the flange, as drawn
+  Pose X_WQ = Pose::Identity();         ///< the plate that both cameras see
+  Vector6d q_shown = Vector6d::Zero();  ///< rad: the plate on the flange before the fixed camera
+  Vector6d q_look = Vector6d::Zero();   ///< rad: the camera on the flange over the other plate
+  Vector6d q_pick = Vector6d::Zero();   ///< rad: the tip on a part in the middle of the bin
+  std::vector<Vector6d> q_hand_eye;     ///< rad: looks at the other plate from several sides
+};
+
+/// Finds postures within reach, limits and free of collision with the cell (the tool is taken off for the plate, whose
+/// place it has). `poses`: looks of the hand-eye calibration. Throws SpecError when the cell has no camera on the
+/// flange, or says what cannot be reached.
+CalibrationSetup calibration_setup(const Cell& cell, const PinholeCamera& camera_C, int poses);
+
+}  // namespace binpick
