@@ -29,39 +29,23 @@ struct Options {
 struct Row {
   CalibrationMethod method = CalibrationMethod::kChain;
   std::string source;
-  double shift = 0, turn = 0, tip = 0, tip_turn = 0;  ///< root mean squares
-  double shift_p95 = 0, tip_p95 = 0;
+  CalibrationSpread measured;
   PredictedError predicted;
 };
-
-Row measured(const CalibrationSetup& setup, const CalibrationErrors& errors, CalibrationMethod method,
-             std::pair<std::uint64_t, std::uint64_t> seeds) {
-  Row row;
-  row.method = method;
-  std::vector<double> shifts, tips;
-  const double count = static_cast<double>(seeds.second - seeds.first);
-  for (std::uint64_t seed = seeds.first; seed < seeds.second; ++seed) {
-    const CalibrationError e = calibration_error(setup, errors, method, Seed{seed});
-    shifts.push_back(e.shift), tips.push_back(e.tip);
-    row.shift += e.shift * e.shift / count, row.turn += e.turn * e.turn / count;
-    row.tip += e.tip * e.tip / count, row.tip_turn += e.tip_turn * e.tip_turn / count;
-  }
-  for (double* square : {&row.shift, &row.turn, &row.tip, &row.tip_turn}) *square = std::sqrt(*square);
-  row.shift_p95 = quantile(shifts, 0.95), row.tip_p95 = quantile(tips, 0.95);
-  row.predicted = predicted_error(setup, errors, method);
-  return row;
-}
 
 std::vector<Row> rows_of(const CalibrationSetup& setup, const CalibrationErrors& errors,
                          std::pair<std::uint64_t, std::uint64_t> seeds) {
   std::vector<Row> rows;
+  const auto add = [&](CalibrationMethod method, const std::string& source, const CalibrationErrors& some) {
+    rows.push_back({method, source,
+                    calibration_spread(setup, some, method, seeds.first, static_cast<int>(seeds.second - seeds.first)),
+                    predicted_error(setup, some, method)});
+  };
   for (const CalibrationMethod method : kCalibrationMethods) {
     for (const ErrorSource source : kErrorSources) {
-      rows.push_back(measured(setup, only(errors, source), method, seeds));
-      rows.back().source = to_string(source);
+      add(method, to_string(source), only(errors, source));
     }
-    rows.push_back(measured(setup, errors, method, seeds));
-    rows.back().source = "all";
+    add(method, "all", errors);
   }
   return rows;
 }
@@ -74,10 +58,10 @@ std::string text_of(const std::vector<Row>& rows, std::uint64_t draws) {
       << "|---|---|---|---|---|---|---|\n"
       << std::fixed << std::setprecision(3);
   for (const Row& row : rows)
-    out << "| " << to_string(row.method) << " | " << row.source << " | " << 1e3 * row.shift << " ("
-        << 1e3 * row.predicted.shift << ") | " << row.turn / kDegree << " (" << row.predicted.turn / kDegree << ") | "
-        << 1e3 * row.tip << " (" << 1e3 * row.predicted.tip << ") | " << row.tip_turn / kDegree << " | "
-        << 1e3 * row.tip_p95 << " |\n";
+    out << "| " << to_string(row.method) << " | " << row.source << " | " << 1e3 * row.measured.shift << " ("
+        << 1e3 * row.predicted.shift << ") | " << row.measured.turn / kDegree << " (" << row.predicted.turn / kDegree
+        << ") | " << 1e3 * row.measured.tip << " (" << 1e3 * row.predicted.tip << ") | "
+        << row.measured.tip_turn / kDegree << " | " << 1e3 * quantile(row.measured.tips, 0.95) << " |\n";
   return out.str();
 }
 
@@ -86,15 +70,15 @@ std::string json_of(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     list.push_back({{"method", to_string(row.method)},
                     {"source", row.source},
-                    {"shift_rms", row.shift},
+                    {"shift_rms", row.measured.shift},
                     {"shift_predicted", row.predicted.shift},
-                    {"shift_p95", row.shift_p95},
-                    {"turn_rms", row.turn},
+                    {"shift_p95", quantile(row.measured.shifts, 0.95)},
+                    {"turn_rms", row.measured.turn},
                     {"turn_predicted", row.predicted.turn},
-                    {"tip_rms", row.tip},
+                    {"tip_rms", row.measured.tip},
                     {"tip_predicted", row.predicted.tip},
-                    {"tip_p95", row.tip_p95},
-                    {"tip_turn_rms", row.tip_turn}});
+                    {"tip_p95", quantile(row.measured.tips, 0.95)},
+                    {"tip_turn_rms", row.measured.tip_turn}});
   return list.dump(1) + "\n";
 }
 
@@ -109,8 +93,7 @@ int run(const Options& options) {
       errors.validate();
     });
   const Scenario scenario = read_scenario(options.scene, {"ideal"});
-  const PinholeCamera grey{1280, 720, 920, 920, 639.5, 359.5};  // of a D4xx's colour imager
-  const CalibrationSetup setup = calibration_setup(scenario.cell, grey, options.poses);
+  const CalibrationSetup setup = calibration_setup(scenario.cell, options.poses);
   const std::vector<Row> rows = rows_of(setup, errors, seeds);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
   std::cout << text_of(rows, seeds.second - seeds.first) << std::flush;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/file_io.hpp"
+#include "core/bin_mesh.hpp"
 #include "core/hash.hpp"
 #include "core/yaml.hpp"
 
@@ -120,6 +121,7 @@ std::string heap_key(const Scenario& scenario, const TrialContext& context) {
   add_config(hasher, scenario.settle);
   add_config(hasher, scenario.physics);
   add_config(hasher, scenario.cell.bin);
+  if (scenario.cell.bin.solid) add_mesh(hasher, scenario.cell.bin.solid->mesh_B);
   hasher.add(scenario.cell.X_WB);
   add_shapes(hasher, scenario.cell.table_W());
   add_shapes(hasher, scenario.cell.tray_W());

@@ -20,11 +20,7 @@ class CalibrationBench {
   std::uint64_t first() const { return first_; }
   int draws() const { return draws_; }
   const CalibrationSetup& setup() const { return setup_; }
-  /// Root mean squares over the draws.
-  struct Spread {
-    double shift = 0, turn = 0, tip = 0, tip_turn = 0;
-  };
-  Spread spread(const CalibrationErrors& errors, CalibrationMethod method) const;
+  CalibrationSpread spread(const CalibrationErrors& errors, CalibrationMethod method) const;
   std::vector<Verdict>& verdicts() { return verdicts_; }
 
  private:
@@ -34,9 +30,6 @@ class CalibrationBench {
   CalibrationSetup setup_;
   std::vector<Verdict> verdicts_;
 };
-
-/// The grey image of the camera on the flange: a D4xx colour imager at 1280 x 720.
-PinholeCamera flange_grey_camera();
 
 void check_plate_pose(CalibrationBench& bench);   ///< V-D1
 void check_chain(CalibrationBench& bench);        ///< V-D2

@@ -112,7 +112,7 @@ void check_chain(CalibrationBench& bench) {
   for (const ErrorSource source : kErrorSources) {
     if (source == ErrorSource::kDepthBias) continue;  // not in the calibration
     const CalibrationErrors one = only(full, source);
-    const CalibrationBench::Spread s = bench.spread(one, CalibrationMethod::kChain);
+    const CalibrationSpread s = bench.spread(one, CalibrationMethod::kChain);
     const PredictedError p = predicted_error(bench.setup(), one, CalibrationMethod::kChain);
     const std::string what = "chain, " + to_string(source) + " alone: ";
     bench.verdicts().push_back(line("V-D2", what + "shift", s.shift, p.shift, share * p.shift, "m", bench.draws()));
@@ -123,7 +123,7 @@ void check_chain(CalibrationBench& bench) {
 
 void report_pick_error(CalibrationBench& bench) {
   const CalibrationErrors full;
-  const CalibrationBench::Spread all = bench.spread(full, CalibrationMethod::kChain);
+  const CalibrationSpread all = bench.spread(full, CalibrationMethod::kChain);
   bench.verdicts().push_back(
       report(line("V-D3", "chain, all errors: tip at the part", all.tip, 0, 0, "m", bench.draws())));
   bench.verdicts().push_back(
@@ -139,7 +139,7 @@ void check_hand_eye(CalibrationBench& bench) {
   const CalibrationErrors corners = only({}, ErrorSource::kCorners);
   const std::vector<Vector6d>& all_looks = bench.setup().q_hand_eye;
   for (const CalibrationMethod method : {CalibrationMethod::kPark, CalibrationMethod::kHoraud}) {
-    const CalibrationBench::Spread s = bench.spread(corners, method);
+    const CalibrationSpread s = bench.spread(corners, method);
     Verdict shift = line("V-D4", to_string(method) + ", 15 poses, 0.2 px: shift", s.shift, 2e-3, 0, "m", bench.draws());
     Verdict turn =
         line("V-D4", to_string(method) + ", 15 poses, 0.2 px: turn", s.turn, 0.5 * kDegree, 0, "rad", bench.draws());

@@ -99,11 +99,10 @@ std::vector<Vector6d> looks(const CalibrationSetup& setup, const CollisionCheck&
 
 }  // namespace
 
-CalibrationSetup calibration_setup(const Cell& cell, const PinholeCamera& camera_C, int poses) {
+CalibrationSetup calibration_setup(const Cell& cell, int poses) {
   if (cell.camera.mount != "flange") throw SpecError("calibration: the camera is not on the flange (camera.mount)");
   CalibrationSetup setup;
   setup.cell = &cell;
-  setup.camera_C = camera_C;
   setup.X_FQ = Pose(Eigen::Translation3d(0, 0, kPlateAhead));
   const Pose X_WC = cell.camera_pose(cell.q_look);
   // The standing plate lies under the look's camera, its back on the bin's floor, slanted as a stand would hold it.

@@ -13,7 +13,8 @@ namespace binpick {
 struct CalibrationSetup {
   const Cell* cell = nullptr;
   MarkerPlate plate;
-  PinholeCamera camera_C;  ///< of the grey image of the camera on the flange
+  PinholeCamera camera_C{1280, 720,   920,
+                         920,  639.5, 359.5};  ///< of the grey image of the camera on the flange (a D4xx's)
   PinholeCamera camera_D{1280, 960, 920, 920, 639.5, 479.5};
   Pose X_WD = Pose::Identity();
   Pose X_FQ = Pose::Identity();         ///< the plate on the flange, as drawn
@@ -27,6 +28,6 @@ struct CalibrationSetup {
 /// Finds postures within reach, limits and free of collision with the cell (the tool is taken off for the plate, whose
 /// place it has). `poses`: looks of the hand-eye calibration. Throws SpecError when the cell has no camera on the
 /// flange, or says what cannot be reached.
-CalibrationSetup calibration_setup(const Cell& cell, const PinholeCamera& camera_C, int poses);
+CalibrationSetup calibration_setup(const Cell& cell, int poses);
 
 }  // namespace binpick

@@ -97,7 +97,7 @@ void take_part(const CalibrationSetup& setup, const BuiltCell& built, const Pose
   const Cell& cell = *setup.cell;
   const Pose X_WG = cell.tip_pose(setup.q_pick);  // of the part's grasp
   const Pose X_CG = (built.flange_at_stop(setup.q_look) * cell.camera.pose).inverse() * X_WG;
-  const Pose measured = pose_from(X_CG.linear(), with_depth_bias(X_CG.translation(), setup.camera_C.fx, bias));
+  const Pose measured = pose_from(X_CG.linear(), with_depth_bias(X_CG.translation(), cell.camera.intrinsics.fx, bias));
   const Pose believed_W = drawn_flange(setup, setup.q_look) * X_FC * measured;
   const Pose X_RF = cell.X_WR.inverse() * believed_W * cell.gripper->X_FG().inverse();
   const std::optional<Vector6d> q = following_solution(*cell.arm, X_RF, setup.q_pick);
@@ -147,6 +147,20 @@ CalibrationError calibration_error(const CalibrationSetup& setup, const Calibrat
                                    CalibrationMethod method, Seed seed) {
   Rng rng = seed.child("calibration").rng();
   return calibration_error(setup, errors, method, [&rng] { return rng.normal(); });
+}
+
+CalibrationSpread calibration_spread(const CalibrationSetup& setup, const CalibrationErrors& errors,
+                                     CalibrationMethod method, std::uint64_t first_seed, int draws) {
+  CalibrationSpread spread;
+  for (int k = 0; k < draws; ++k) {
+    const CalibrationError e =
+        calibration_error(setup, errors, method, Seed{first_seed + static_cast<std::uint64_t>(k)});
+    spread.shift += e.shift * e.shift / draws, spread.turn += e.turn * e.turn / draws;
+    spread.tip += e.tip * e.tip / draws, spread.tip_turn += e.tip_turn * e.tip_turn / draws;
+    spread.shifts.push_back(e.shift), spread.tips.push_back(e.tip);
+  }
+  for (double* square : {&spread.shift, &spread.turn, &spread.tip, &spread.tip_turn}) *square = std::sqrt(*square);
+  return spread;
 }
 
 PredictedError predicted_error(const CalibrationSetup& setup, const CalibrationErrors& errors,

@@ -33,6 +33,14 @@ CalibrationError calibration_error(const CalibrationSetup& setup, const Calibrat
 CalibrationError calibration_error(const CalibrationSetup& setup, const CalibrationErrors& errors,
                                    CalibrationMethod method, Seed seed);
 
+/// Root mean squares over the calibrations of seeds first_seed .. first_seed + draws - 1.
+struct CalibrationSpread {
+  double shift = 0, turn = 0, tip = 0, tip_turn = 0;
+  std::vector<double> shifts, tips;  ///< m, of each
+};
+CalibrationSpread calibration_spread(const CalibrationSetup& setup, const CalibrationErrors& errors,
+                                     CalibrationMethod method, std::uint64_t first_seed, int draws);
+
 /// Root mean square of shift and turn to first order: the sum over all numbers drawn of the squared derivatives, each
 /// by a central difference.
 struct PredictedError {

@@ -137,7 +137,7 @@ std::optional<Pose> plate_pose(const std::vector<SeenCorner>& corners, const Mar
   const Correspondences c = correspondences(corners, plate, camera, lens);
   std::vector<cv::Mat> rotations, translations;
   cv::solvePnPGeneric(c.plate_Q, c.pixels, c.camera, cv::noArray(), rotations, translations, false, cv::SOLVEPNP_IPPE);
-  // IPPE of OpenCV 4.6 answers NaN for one calibration in some thousand.
+  // IPPE of OpenCV 4.6 answers NaN now and then, also for exact corners.
   cv::Mat rotation, translation;
   if (cv::solvePnP(c.plate_Q, c.pixels, c.camera, cv::noArray(), rotation, translation))
     rotations.push_back(rotation), translations.push_back(translation);
