@@ -10,9 +10,10 @@
 namespace binpick {
 namespace {
 
-constexpr double kFalling = 0.5;      // m/s: a faster part is still on its way and not part of the heap
-constexpr double kSpawnGap = 1e-3;    // m between bounding spheres of a new part and the parts on their way
-constexpr double kLongestWait = 3.0;  // s, for the way to be clear
+constexpr double kFalling = 0.5;         // m/s: a faster part is still on its way and not part of the heap
+constexpr double kSimulatedFall = 0.02;  // m, the last of it; before, parts of a stream meet nothing
+constexpr double kSpawnGap = 1e-3;       // m between bounding spheres of a new part and the parts on their way
+constexpr double kLongestWait = 3.0;     // s, for the way to be clear
 
 /// One drop: everything that stays the same from part to part.
 class Dropper {
@@ -30,12 +31,14 @@ class Dropper {
     const Eigen::Vector3d spin = rng.unit_vector() * rng.uniform() * config_.spin;
     const Eigen::Vector3d speed = rng.unit_vector() * rng.uniform() * config_.speed;
     const Eigen::Vector3d centre_W = clear_centre({x, y, 0}, radius);
+    const Eigen::Vector3d fallen_W(0, 0, -std::sqrt(2 * world_.gravity() * (config_.height - simulated_fall())));
     const Eigen::Vector3d p_PM_W = R_WP * item.part->mass.center_P;
     world_.teleport(body, pose_from(R_WP, centre_W - p_PM_W));
-    world_.set_velocity(body, speed, spin);
+    world_.set_velocity(body, speed + fallen_W, spin);
     world_.set_present(body, true);
     world_.wake(body);
     bodies_.push_back(body);
+    landed_.push_back(false);
     return body;
   }
 
@@ -56,17 +59,28 @@ class Dropper {
     const double start = world_.time();
     double lift = 0;
     while (true) {
-      double top = 0;
-      for (const BodyId other : bodies_)
-        if (world_.velocity(other).norm() < kFalling)
-          top = std::max(top, height_in_bin(world_.mass_center(other)) + world_.bounding_radius(other));
-      const Eigen::Vector3d centre_W = X_WB_ * Eigen::Vector3d(p_B.x(), p_B.y(), top + config_.height + radius + lift);
+      const double height = heap_top() + simulated_fall() + radius + lift;
+      const Eigen::Vector3d centre_W = X_WB_ * Eigen::Vector3d(p_B.x(), p_B.y(), height);
       if (is_clear(centre_W, radius)) return centre_W;
       if (world_.time() - start > kLongestWait)
         lift += radius;
       else
         world_.step();
     }
+  }
+
+  double simulated_fall() const { return std::min(config_.height, kSimulatedFall); }
+
+  /// Height of what lies. A slow part in mid-air has only just been released: on it the next would stand as on a tower.
+  double heap_top() {
+    double top = 0;
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      const bool slow = world_.velocity(bodies_[k]).norm() < kFalling;
+      landed_[k] = landed_[k] || (slow && !world_.contacts(bodies_[k]).empty());
+      if (!landed_[k] || !slow) continue;
+      top = std::max(top, height_in_bin(world_.mass_center(bodies_[k])) + world_.bounding_radius(bodies_[k]));
+    }
+    return top;
   }
 
   bool is_clear(const Eigen::Vector3d& centre_W, double radius) const {
@@ -81,6 +95,7 @@ class Dropper {
   const Pose& X_WB_;
   const DropConfig& config_;
   std::vector<BodyId> bodies_;
+  std::vector<bool> landed_;  ///< of each: it has met something
 };
 
 /// Parts that leaned on the guard walls fall when these go away: they are woken and the heap settles again.

@@ -16,7 +16,7 @@ namespace binpick {
 struct DropConfig {
   std::string kind = "rain";  ///< rain: one by one; dump: together, out of a tote; shaken: rain, then a vibrating table
   double fill = 0;         ///< share of the bin's volume that the parts' own volume makes; 0: as many as `count` says
-  double height = 0.30;    ///< m, release height of the part's lowest possible point above the highest part or floor
+  double height = 0.30;    ///< m, that the part's lowest possible point falls to the highest part or the floor
   double interval = 0.05;  ///< s between parts
   double area = 0.8;       ///< share of the bin's length and width in which parts are released
   double speed = 0.0;      ///< m/s, largest random initial speed

@@ -51,7 +51,7 @@ void DropConfig::visit(ConfigVisitor& v) {
            "rain: parts fall one by one; dump: together, out of a tote; shaken: rain, then the bin vibrates");
   v.field("fill", fill, Unit::kNone,
           "share of the bin's volume that the parts' own volume makes, the counts say the mix; 0: the counts are numbers");
-  v.field("height", height, Unit::kLength, "release height of the part's lowest possible point above heap and floor");
+  v.field("height", height, Unit::kLength, "fall of the part's lowest possible point to heap or floor");
   v.field("interval", interval, Unit::kTime, "time between parts");
   v.field("area", area, Unit::kNone, "share of the bin's length and width in which parts are released");
   v.field("speed", speed, Unit::kSpeed, "largest random initial speed");

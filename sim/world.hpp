@@ -94,6 +94,7 @@ class World {
   Eigen::Vector3d velocity(BodyId body) const;          ///< m/s, of the mass centre
   Eigen::Vector3d angular_velocity(BodyId body) const;  ///< rad/s, in W
   double kinetic_energy(BodyId body) const;             ///< J, of a free body
+  double gravity() const;                               ///< m/s^2, along -z of W
   void wake(BodyId body);
   bool awake(BodyId body) const;
   /// Awake from now on, or free to fall asleep again.

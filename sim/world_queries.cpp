@@ -132,6 +132,8 @@ double World::deepest_contact() const {
   return deepest;
 }
 
+double World::gravity() const { return impl_->config.gravity; }
+
 std::vector<World::BodyContact> World::contacts(BodyId body) const {
   std::map<BodyId, BodyContact> by_other;
   for (int m = 0; m < impl_->dispatcher->getNumManifolds(); ++m) {

@@ -3,6 +3,7 @@
 
 #include "example_parts.hpp"
 #include "sim/bin.hpp"
+#include "sim/drop_stages.hpp"
 #include "sim/rest_check.hpp"
 
 namespace binpick {
@@ -39,6 +40,25 @@ TEST(Drop, TenRingsComeToRestInsideTheBin) {
     EXPECT_LT(heap.result.woken.largest_motion, 1e-3) << "seed " << seed;
     EXPECT_LT(heap.result.woken.energy, 1e-6) << "seed " << seed;
     for (const Pose& X_WP : heap.poses) EXPECT_GT(X_WP.translation().z(), 0.02 + 0.0075) << "seed " << seed;
+  }
+}
+
+TEST(Drop, PartsOfADenseRainFallNoFartherThanStated) {
+  const Part part = example::ring();
+  const CollisionShape shape = collision_shape(part);
+  World world{PhysicsConfig{}};
+  const BinSpec bin;
+  add_bin(world, bin, Pose::Identity());
+  DropConfig drop;
+  drop.interval = 0.02;  // s: a part is still slow and in mid-air when the next is due
+  const std::vector<DropItem> items(20, {&part, &shape, 0});
+  const double radius = part.diameter / 2, heap = 0.15;  // m: twenty rings lie no higher
+  const auto bodies = rain_parts(world, items, bin, Pose::Identity(), drop, Seed{9});
+  const double late = world.velocity(bodies.back()).norm(), most = std::sqrt(2 * 9.81 * (drop.height + heap));
+  EXPECT_NEAR(late, std::sqrt(2 * 9.81 * drop.height), 0.1);
+  for (const BodyId body : bodies) {
+    EXPECT_LT(world.pose(body).translation().z(), heap + drop.height + 2 * radius);
+    EXPECT_LT(world.velocity(body).norm(), most);
   }
 }
 
