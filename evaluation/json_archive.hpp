@@ -32,6 +32,11 @@ class JsonWriter {
   void operator()(const char* key, const std::optional<T>& value) {
     json[key] = value ? OrderedJson(*value) : OrderedJson(nullptr);
   }
+  /// No key when there is no value.
+  template <class T>
+  void if_any(const char* key, const std::optional<T>& value) {
+    if (value) (*this)(key, *value);
+  }
   void operator()(const char* key, PickOutcome value) { json[key] = to_string(value); }
   void operator()(const char* key, const Eigen::Vector3d& value) { json[key] = {value.x(), value.y(), value.z()}; }
   void operator()(const char* key, const std::map<std::string, int>& value) {
@@ -94,6 +99,11 @@ class JsonReader {
     T inner{};
     (*this)(key, inner);
     value = inner;
+  }
+  template <class T>
+  void if_any(const char* key, std::optional<T>& value) {
+    value.reset();
+    if (json_.contains(key)) (*this)(key, value.emplace());
   }
   void operator()(const char* key, PickOutcome& value) {
     std::string text;

@@ -80,6 +80,8 @@ void trial_fields(Archive& archive, Record& record) {
   archive("woken_energy", record.woken_energy);
   archive("woken_motion", record.woken_motion);
   archive("woken_share", record.woken_share);
+  archive.if_any("calibration_translation", record.calibration_translation);
+  archive.if_any("calibration_rotation", record.calibration_rotation);
   archive.hash("drop_hash", record.drop_hash);
   archive("error", record.error);
   archive.list("picks", record.picks, [](auto& inner, auto& pick) { pick_fields(inner, pick); });

@@ -65,6 +65,9 @@ struct TrialRecord {
   double woken_energy = 0;       ///< J, largest of a part at the end of the time it was kept awake
   double woken_motion = 0;       ///< m, largest of a part in that time
   double woken_share = 0;        ///< of the parts that moved more than 0.1 mm in it
+  /// From where the camera is to where the cell believes it, in the camera's frame: m, and rad as a rotation vector.
+  /// Nothing, and no key in the line: the scene's calibration is perfect.
+  std::optional<Eigen::Vector3d> calibration_translation, calibration_rotation;
   std::uint64_t drop_hash = 0;
   std::vector<PickRecord> picks;
   std::string error;      ///< text of an InternalError

@@ -93,7 +93,7 @@ int run(const Options& options) {
       errors.validate();
     });
   const Scenario scenario = read_scenario(options.scene, {"ideal"});
-  const CalibrationSetup setup = calibration_setup(scenario.cell, options.poses);
+  const CalibrationSetup setup = calibration_setup(scenario.cell, {options.poses});
   const std::vector<Row> rows = rows_of(setup, errors, seeds);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
   std::cout << text_of(rows, seeds.second - seeds.first) << std::flush;

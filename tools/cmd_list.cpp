@@ -54,7 +54,13 @@ void print_sensor_presets() {
 void print_scene_keys() {
   Scenario scenario;
   scenario.parts.resize(1);
-  std::cout << "# scene keys\n\n" << describe_config([&](ConfigVisitor& v) { scenario.visit(v); }) << "\n";
+  std::cout << "# scene keys\n\n"
+            << describe_config([&](ConfigVisitor& v) {
+                 scenario.visit(v);
+                 v.section("calibration", scenario.calibration,
+                           "");  // which a stored scene leaves out while it is perfect
+               })
+            << "\n";
 }
 
 }  // namespace

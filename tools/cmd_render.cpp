@@ -23,21 +23,24 @@ struct Options {
 // What a grey camera of the same intrinsics sees from the same place, through the lens of the cell file.
 void write_grey(const std::string& file, const Scenario& s, const CellWorld& cell_world, DepthRenderer& renderer,
                 Seed trial_seed) {
-  const GreyCamera camera{s.cell.camera.intrinsics, s.cell.camera.lens, s.cell.camera_pose(cell_world.joints())};
+  const GreyCamera camera{s.cell.camera.intrinsics, s.cell.camera.lens,
+                          cell_world.cell().camera_pose(cell_world.joints())};
   write_png8(file, capture_grey(renderer, cell_world.render_scene(), camera, {}, trial_seed.child("sensor")));
 }
 
 int run(const Options& options) {
   Scenario scenario = read_scenario(options.scene, {options.sensor});
   TrialContext context = make_trial_context(scenario);
-  CellWorld cell_world(scenario.cell, scenario.physics, context.parts);
+  const TrueCell built = true_cell(scenario, context, Seed{options.seed});
+  CellWorld cell_world(built.cell, scenario.physics, context.parts);
   const DropResult heap = drop_heap(scenario, context, Seed{options.seed}, cell_world);
   const bool settled = heap.settled && heap.escaped.empty();
   if (!settled) std::cerr << "note: this heap is not at rest inside its bin; a trial would end as Unsettled\n";
   const Observation seen = observe(scenario, cell_world, context, Seed{options.seed}, 0);
   for (std::size_t k = 0; k < seen.captures.size(); ++k)
     write_render_folder(options.out + (k == 0 ? "" : "/camera_" + std::to_string(k)), scenario,
-                        {context.hash, options.seed, settled}, seen.captures[k], cell_world, *context.renderer);
+                        {context.hash, options.seed, settled, built.cell.camera_pose(cell_world.joints(), k)},
+                        seen.captures[k], cell_world, *context.renderer);
   if (const auto* cloud_C = std::get_if<PointCloud>(&seen.view.seen))
     write_cloud_ply(options.out + "/fused.ply", *cloud_C, "frame C of the first camera, metres; all cameras' points");
   if (options.grey) write_grey(options.out + "/grey.png", scenario, cell_world, *context.renderer, Seed{options.seed});

@@ -81,7 +81,8 @@ void TrialPictures::look(int pick, const std::string& prefix, DepthRenderer& ren
   const RenderScene scene = cell_world.render_scene();
   save(pick, prefix + "heap", renderer.picture(scene, bystander_camera(), bystander(cell_world.cell())));
   save(pick, prefix + "depth", depth_picture(frame));
-  const Image<Rgb> from_camera = renderer.picture(scene, frame.camera, frame.X_WC);
+  const Image<Rgb> from_camera =
+      renderer.picture(scene, frame.camera, cell_world.cell().camera_pose(cell_world.joints()));
   save(pick, prefix + "estimates", overlay_picture(from_camera, frame, found.estimates, cell_world.parts()));
 }
 

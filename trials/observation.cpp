@@ -33,6 +33,14 @@ std::uint64_t hash_of(const std::vector<DepthFrame>& frames) {
 
 }  // namespace
 
+TrueCell true_cell(const Scenario& s, const TrialContext& context, Seed trial_seed) {
+  TrueCell built{s.cell, std::nullopt};
+  if (s.calibration.perfect()) return built;
+  built.X_CC = calibration_offset(s.calibration, context.calibration.get(), trial_seed);
+  built.cell.camera.pose = orthonormalised(s.cell.camera.pose * built.X_CC->inverse());
+  return built;
+}
+
 std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed) {
   std::vector<DropItem> items;
   for (std::size_t p = 0; p < s.parts.size(); ++p)
@@ -52,10 +60,11 @@ DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_
 
 Capture capture_again(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed,
                       int pick) {
-  const Pose X_WC = s.cell.camera_pose(cell_world.joints());
+  const Pose X_WC_true = cell_world.cell().camera_pose(cell_world.joints());
+  const Pose X_WC_believed = s.cell.camera_pose(cell_world.joints());
   const Seed frame_seed = trial_seed.child("sensor", static_cast<std::uint64_t>(pick)).child("second look");
   return capture_depth(*context.renderer, *s.sensor, cell_world.render_scene(), cell_world.heap().bodies.size(),
-                       s.cell.camera.intrinsics, X_WC, X_WC, trial_seed.child("camera", 0), frame_seed);
+                       s.cell.camera.intrinsics, X_WC_true, X_WC_believed, trial_seed.child("camera", 0), frame_seed);
 }
 
 Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick) {
@@ -63,17 +72,18 @@ Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext
   Observation seen;
   std::vector<DepthFrame> frames;
   for (std::size_t k = 0; k < s.cell.camera_count(); ++k) {
-    const Pose X_WC = s.cell.camera_pose(cell_world.joints(), k);
+    const Pose X_WC_true = cell_world.cell().camera_pose(cell_world.joints(), k);
+    const Pose X_WC_believed = s.cell.camera_pose(cell_world.joints(), k);
     Seed frame_seed = trial_seed.child("sensor", static_cast<std::uint64_t>(pick));
     if (k > 0) frame_seed = frame_seed.child("camera", k);
     seen.captures.push_back(capture_depth(*context.renderer, *s.sensor, scene, cell_world.heap().bodies.size(),
-                                          s.cell.camera_at(k).intrinsics, X_WC, X_WC, trial_seed.child("camera", k),
-                                          frame_seed));
+                                          s.cell.camera_at(k).intrinsics, X_WC_true, X_WC_believed,
+                                          trial_seed.child("camera", k), frame_seed));
     frames.push_back(seen.captures.back().frame);
   }
   seen.frame_hash = hash_of(frames);
   seen.X_WC_believed = frames.front().X_WC;
-  seen.truth = truth_of(cell_world, seen.captures, s.cell.camera_pose(cell_world.joints()));
+  seen.truth = truth_of(cell_world, seen.captures, cell_world.cell().camera_pose(cell_world.joints()));
   if (frames.size() == 1) {
     seen.view.seen = frames.front();
   } else {

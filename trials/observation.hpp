@@ -2,6 +2,7 @@
 // both.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/ground_truth.hpp"
@@ -21,13 +22,22 @@ struct Observation {
   std::uint64_t frame_hash = 0;   ///< of all of them
 };
 
+/// The cell of a trial as it is built, where the scenario's is what it believes: they differ by the error of the
+/// calibration, and not at all when that is perfect.
+struct TrueCell {
+  Cell cell;
+  std::optional<Pose> X_CC;  ///< from where the (first) camera is to where it is believed; nothing: perfect
+};
+TrueCell true_cell(const Scenario& s, const TrialContext& context, Seed trial_seed);
+
 /// The scenario's parts in the order in which they are dropped; `seed`: the trial's "drop".
 std::vector<DropItem> drop_order(const Scenario& s, const TrialContext& context, Seed seed);
 
 /// Drops the scenario's parts for the trial's seed and lets the arm come to the look pose.
 DropResult drop_heap(const Scenario& s, const TrialContext& context, Seed trial_seed, CellWorld& cell_world);
 
-/// Look number `pick` of the trial, from where the arm stands.
+/// Look number `pick` of the trial, from where the arm stands. Cameras are where the world's cell has them, and
+/// believed to be where the scenario's has them.
 Observation observe(const Scenario& s, const CellWorld& cell_world, TrialContext& context, Seed trial_seed, int pick);
 
 /// The first camera once more before the same pick, from where the arm stands now: another frame of the same camera.

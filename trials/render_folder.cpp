@@ -173,7 +173,7 @@ void write_render_folder(const std::string& folder, const Scenario& scenario, co
   write_png16(folder + "/ids.png", label_counts(capture.exact.ids));
   write_png(folder + "/preview.png", depth_picture(frame));
   write_png(folder + "/noise.png", noise_picture(frame, capture.exact.depth));
-  write_png(folder + "/shaded.png", renderer.picture(cell_world.render_scene(), frame.camera, frame.X_WC));
+  write_png(folder + "/shaded.png", renderer.picture(cell_world.render_scene(), frame.camera, labels.X_WC_true));
   write_cloud_ply(folder + "/cloud.ply", cloud_with_normals(frame, {}),
                   "frame C of the camera (x right, y down, z forward), metres; X_WC stands in render.yaml");
   write_file(folder + "/render.yaml", write_yaml([&](ConfigVisitor& v) { file.visit(v); }));

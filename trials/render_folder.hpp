@@ -14,6 +14,7 @@ struct RenderLabels {
   std::string scenario_hash;
   std::uint64_t seed = 0;
   bool settled = true;
+  Pose X_WC_true = Pose::Identity();  ///< of the camera, for its picture
 };
 
 /// depth_mm.png, depth.tiff, ids.png, noise.png, preview.png, shaded.png, cloud.ply and render.yaml in `folder`, which

@@ -43,6 +43,21 @@ void visit_cell(ConfigVisitor& v, Cell& cell) {
   }
 }
 
+// `calibration:` is a word or a mapping. What is perfect is not written, so that older scenes keep their hash.
+void visit_calibration(ConfigVisitor& v, CalibrationConfig& config) {
+  if (v.reading() && v.is_scalar("calibration")) {
+    v.choice("calibration", config.method, {"perfect", "chain", "hand_eye"}, "");
+  } else if (v.reading() || !config.perfect()) {
+    v.section("calibration", config, "how well the cell knows where its camera is");
+  }
+  if (!v.has("calibration")) return;
+  try {
+    config.validate();  // here, where the line is known
+  } catch (const SpecError& error) {
+    v.fail("calibration", error.what());
+  }
+}
+
 std::vector<std::string> estimator_choices() {
   std::vector<std::string> names = estimator_names();
   names.push_back("oracle");
@@ -133,6 +148,9 @@ void validate(const Scenario& s) {
   if (!s.second_look.when.empty() && s.cell.camera.mount != "flange")
     throw SpecError(
         "second_look.when: the camera is fixed (cell.camera.mount); the arm can move one on the flange only");
+  if (s.calibration.by_measurement() && s.cell.camera.mount != "flange")
+    throw SpecError("calibration." + s.calibration.method +
+                    ": is of a camera on the flange, and this one is fixed (cell.camera.mount); give an offset");
   s.trial.validate();
 }
 
@@ -168,6 +186,7 @@ void Scenario::visit(ConfigVisitor& v) {
   v.section("settle", settle, "when the heap is at rest");
   v.section("physics", physics, "the physics engine");
   visit_cell(v, cell);
+  visit_calibration(v, calibration);
   v.choice("renderer", renderer, renderer_names(), "what draws the exact frames; raycast is the slower reference");
   visit_sensor(v, *this);
   visit_estimator(v, *this);

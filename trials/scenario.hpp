@@ -15,6 +15,7 @@
 #include "sim/drop.hpp"
 #include "sim/sensor_model.hpp"
 #include "sim/world.hpp"
+#include "trials/calibration/calibration_config.hpp"
 #include "trials/oracle.hpp"
 #include "trials/pick_execution.hpp"
 
@@ -43,7 +44,8 @@ struct Scenario {
   DropConfig drop;
   SettleConfig settle;
   PhysicsConfig physics;
-  Cell cell;
+  Cell cell;                        ///< as it believes itself to be
+  CalibrationConfig calibration;    ///< of cell.camera; further cameras stand where the cell believes
   std::string renderer = "osmesa";  ///< what draws the exact frames: a name of renderer_names()
   std::string sensor_type = "disparity";
   std::shared_ptr<SensorModel> sensor;

@@ -176,7 +176,8 @@ Sight second_sight(const LookRun& run, const Sight& first) {
   std::vector<DepthFrame> frames = {without_robot(s.cell, again.frame, run.cell_world.joints())};
   for (const Capture& capture : first.seen.captures) frames.push_back(not_seen_again(capture.frame, frames.front()));
   out.seen.frame_hash = Hasher().add(first.seen.frame_hash).add(frame_hash(again.frame)).add(again.frame.X_WC).value();
-  out.seen.X_WC_believed = out.seen.truth.X_WC = again.frame.X_WC;
+  out.seen.X_WC_believed = again.frame.X_WC;
+  out.seen.truth.X_WC = run.cell_world.cell().camera_pose(run.cell_world.joints());
   see_more(out.seen.truth, again);
   SceneView& view = out.seen.view;
   view.X_CB = stored_pose(again.frame.X_WC.inverse() * s.cell.X_WB);

@@ -157,7 +157,12 @@ void pick_until_done(Run& run, TrialRecord& record) {
 }
 
 void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pictures, TrialRecord& record) {
-  CellWorld cell_world(s.cell, s.physics, context.parts);
+  const TrueCell built = true_cell(s, context, seed);
+  if (built.X_CC) {
+    record.calibration_translation = built.X_CC->translation();
+    record.calibration_rotation = log_so3(built.X_CC->linear());
+  }
+  CellWorld cell_world(built.cell, s.physics, context.parts);
   const DropResult heap = drop_heap(s, context, seed, cell_world);
   record.dropped = static_cast<int>(heap.bodies.size());
   record.escaped = static_cast<int>(heap.escaped.size());

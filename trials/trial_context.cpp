@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "sim/bin_pieces.hpp"
+#include "trials/calibration/calibration_setup.hpp"
 
 namespace binpick {
 namespace {
@@ -22,6 +23,14 @@ void check_fits(const Part& part, const BinSpec& bin, const std::string& scene_f
     throw SpecError(scene_file + ": cell.bin.inner_size: the bin's floor of " + format_double(floor[1]) + " x " +
                     format_double(floor[0]) + " m is smaller than the part " + part.name + " (" +
                     format_double(extent[2]) + " x " + format_double(extent[1]) + " m)");
+}
+
+CalibrationSetup calibration_of(const Scenario& s) {
+  try {
+    return calibration_setup(s.cell, {s.calibration.method == "hand_eye" ? s.calibration.poses : 0});
+  } catch (const SpecError& error) {
+    throw SpecError(s.file + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -61,6 +70,8 @@ TrialContext make_trial_context(Scenario& scenario) {
   context.renderer = make_renderer(scenario.renderer);
   context.planner = std::make_unique<const PickPlanner>(scenario.cell, context.parts, scenario.planning);
   context.checker = std::make_unique<const PoseChecker>(context.parts);
+  if (scenario.calibration.by_measurement())
+    context.calibration = std::make_shared<const CalibrationSetup>(calibration_of(scenario));
   if (scenario.estimator) scenario.estimator->prepare(context.parts);
   return context;
 }

@@ -21,9 +21,10 @@ struct TrialContext {
   std::vector<int> counts;         ///< of each part, how many are dropped: the scene's, or what drop.fill makes of them
   std::vector<SolidProbe> probes;  ///< the parts' envelopes, for penetration at rest
   std::unique_ptr<DepthRenderer> renderer;
-  std::unique_ptr<const PickPlanner> planner;  ///< knows where the tool fits on the parts
-  std::unique_ptr<const PoseChecker> checker;  ///< the parts prepared for scoring
-  std::string hash;                            ///< scenario_hash
+  std::unique_ptr<const PickPlanner> planner;           ///< knows where the tool fits on the parts
+  std::unique_ptr<const PoseChecker> checker;           ///< the parts prepared for scoring
+  std::shared_ptr<const CalibrationSetup> calibration;  ///< of a scene whose camera is calibrated by chain or hand_eye
+  std::string hash;                                     ///< scenario_hash
 };
 
 /// How many of each part are dropped. Throws SpecError when drop.fill asks for too many.

@@ -45,12 +45,16 @@ TEST(TrialRecord, RoundTripIsByteEqual) {
     record.picks[0].place_error = rng.uniform();
     record.picks[0].check.estimates[0].error.abs_xyz = rng.unit_vector();
     record.picks[1].wall.voting = rng.uniform();
+    if (i % 2 == 1) record.calibration_translation = rng.unit_vector(), record.calibration_rotation = rng.unit_vector();
     const std::string line = to_json_line(record);
     const TrialRecord back = trial_record_from_json(line, "line");
     EXPECT_EQ(to_json_line(back), line) << "item " << i;
     EXPECT_EQ(back.settle_time, record.settle_time) << "item " << i;
     EXPECT_EQ(back.picks[0].place_error, record.picks[0].place_error) << "item " << i;
     EXPECT_EQ(back.seed, record.seed) << "item " << i;
+    EXPECT_EQ(back.calibration_translation, record.calibration_translation) << "item " << i;
+    EXPECT_EQ(back.calibration_rotation, record.calibration_rotation) << "item " << i;
+    EXPECT_EQ(line.find("calibration") != std::string::npos, i % 2 == 1) << "perfect: no key, as in older records";
     EXPECT_EQ(back.picks[1].wall.voting, record.picks[1].wall.voting) << "item " << i;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }

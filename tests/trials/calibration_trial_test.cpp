@@ -12,7 +12,7 @@ namespace {
 class CalibrationTrial : public testing::Test {
  protected:
   Scenario scenario = read_scenario(std::string(BINPICK_SOURCE_DIR) + "/scenes/bearing_bin.yaml", {"ideal"});
-  CalibrationSetup setup = calibration_setup(scenario.cell, 15);
+  CalibrationSetup setup = calibration_setup(scenario.cell, {15});
 };
 
 TEST_F(CalibrationTrial, WithoutErrorsEveryMethodIsExact) {
@@ -72,7 +72,7 @@ TEST_F(CalibrationTrial, FirstOrderHoldsForCornerNoise) {
 
 TEST_F(CalibrationTrial, ACameraThatIsNotOnTheFlangeIsRefused) {
   scenario.cell.camera.mount = "fixed";
-  EXPECT_THROW(calibration_setup(scenario.cell, 15), SpecError);
+  EXPECT_THROW(calibration_setup(scenario.cell, {15}), SpecError);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ namespace binpick {
 
 CalibrationBench::CalibrationBench(std::uint64_t first_seed, int draws)
     : first_(first_seed), draws_(draws), scenario_(read_scenario("scenes/bearing_bin.yaml", {"ideal"})) {
-  setup_ = calibration_setup(scenario_.cell, kPoses);
+  setup_ = calibration_setup(scenario_.cell, {kPoses});
 }
 
 CalibrationSpread CalibrationBench::spread(const CalibrationErrors& errors, CalibrationMethod method) const {

@@ -5,6 +5,11 @@
 namespace binpick {
 
 void CalibrationErrors::visit(ConfigVisitor& v) {
+  visit_calibration(v);
+  v.field("disparity_bias", disparity_bias, Unit::kNone, "px, of the depth camera that picks are made with");
+}
+
+void CalibrationErrors::visit_calibration(ConfigVisitor& v) {
   v.field("corner", corner, Unit::kNone, "px, standard deviation of a marker's corner along each axis");
   v.field("focal", focal, Unit::kNone, "relative, of the focal length");
   v.field("centre", centre, Unit::kNone, "px, of the principal point along each axis");
@@ -13,7 +18,6 @@ void CalibrationErrors::visit(ConfigVisitor& v) {
   v.field("joint_offset", joint_offset, Unit::kAngle, "of each joint");
   v.field("link", link, Unit::kLength, "of each link along each axis");
   v.field("repeatability", repeatability, Unit::kLength, "of the flange along each axis at each stop");
-  v.field("disparity_bias", disparity_bias, Unit::kNone, "px, of the depth camera that picks are made with");
 }
 
 void CalibrationErrors::validate() const {

@@ -25,6 +25,7 @@ struct CalibrationErrors {
   double disparity_bias = 0.3;  ///< px, of the depth camera: no part of the calibration, but of what a pick meets
 
   void visit(ConfigVisitor& v);
+  void visit_calibration(ConfigVisitor& v);  ///< without disparity_bias
   void validate() const;
 };
 

@@ -12,7 +12,6 @@ namespace binpick {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kAbove = 1.1;        // m, of the fixed camera over the floor of the bin
 constexpr double kAside = 0.25;       // m: beside the bin's middle, away from the robot
 constexpr double kPlateAhead = 0.05;  // m, of the plate in front of the flange
 constexpr int kSpins = 12;
@@ -62,8 +61,7 @@ Vector6d shown(const CalibrationSetup& setup, const CollisionCheck& check) {
           if (!whole(setup, X_DQ, setup.camera_D)) continue;
           if (const auto q = posture(setup, check, setup.X_WD * X_DQ * setup.X_FQ.inverse())) return *q;
         }
-  throw SpecError("calibration: the arm cannot show a plate to a camera " + std::to_string(kAbove) +
-                  " m above the bin");
+  throw SpecError("calibration: the arm cannot show a plate to the fixed camera above the bin");
 }
 
 /// The tip straight down on a part in the middle of the bin, whichever way round.
@@ -80,13 +78,13 @@ Vector6d picking(const CalibrationSetup& setup, const CollisionCheck& check) {
 }
 
 /// Looks at the plate from several sides, evenly around and at two tilts; places that are not free are passed over.
-std::vector<Vector6d> looks(const CalibrationSetup& setup, const CollisionCheck& check, int count) {
+std::vector<Vector6d> looks(const CalibrationSetup& setup, const CollisionCheck& check, int count, double nearest) {
   std::vector<Vector6d> found;
   const Eigen::Vector3d target = setup.X_WQ.translation();
   constexpr double kGolden = 2.399963229728653;  // rad: evenly around for any count
   for (int k = 0; k < 20 * count && static_cast<int>(found.size()) < count; ++k) {
     const double tilt = (k % 3 == 0 ? 10 : k % 3 == 1 ? 20 : 30) * kDegree;
-    const double distance = 0.45 + 0.05 * (k % 4), spin = k * 0.7;
+    const double distance = nearest + 0.05 * (k % 4), spin = k * 0.7;
     const Pose X_WC = looking_at(target, distance, tilt, k * kGolden, spin);
     if (!whole(setup, X_WC.inverse() * setup.X_WQ, setup.camera_C)) continue;
     if (const auto q = posture(setup, check, X_WC * setup.cell->camera.pose.inverse())) found.push_back(*q);
@@ -99,7 +97,7 @@ std::vector<Vector6d> looks(const CalibrationSetup& setup, const CollisionCheck&
 
 }  // namespace
 
-CalibrationSetup calibration_setup(const Cell& cell, int poses) {
+CalibrationSetup calibration_setup(const Cell& cell, const CalibrationPlaces& places) {
   if (cell.camera.mount != "flange") throw SpecError("calibration: the camera is not on the flange (camera.mount)");
   CalibrationSetup setup;
   setup.cell = &cell;
@@ -111,7 +109,7 @@ CalibrationSetup calibration_setup(const Cell& cell, int poses) {
   const Eigen::Vector3d outwards = Eigen::Vector3d((cell.X_WB.translation() - cell.X_WR.translation()).x(),
                                                    (cell.X_WB.translation() - cell.X_WR.translation()).y(), 0)
                                        .normalized();
-  setup.X_WD = looking_down(cell.X_WB.translation() + kAside * outwards + Eigen::Vector3d(0, 0, kAbove));
+  setup.X_WD = looking_down(cell.X_WB.translation() + kAside * outwards + Eigen::Vector3d(0, 0, places.above));
   if (!whole(setup, X_WC.inverse() * setup.X_WQ, setup.camera_C) ||
       !whole(setup, setup.X_WD.inverse() * setup.X_WQ, setup.camera_D))
     throw SpecError("calibration: a plate on the bin's floor is not seen whole from the look pose and from above");
@@ -119,7 +117,7 @@ CalibrationSetup calibration_setup(const Cell& cell, int poses) {
   setup.q_look = cell.q_look;
   setup.q_shown = shown(setup, check);
   setup.q_pick = picking(setup, check);
-  setup.q_hand_eye = looks(setup, check, poses);
+  setup.q_hand_eye = looks(setup, check, places.poses, places.nearest);
   return setup;
 }
 

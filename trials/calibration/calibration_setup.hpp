@@ -25,9 +25,16 @@ struct CalibrationSetup {
   std::vector<Vector6d> q_hand_eye;     ///< rad: looks at the other plate from several sides
 };
 
+/// What may be chosen of it.
+struct CalibrationPlaces {
+  int poses = 15;         ///< looks of the hand-eye calibration; 0: none
+  double above = 1.1;     ///< m, of the fixed camera over the floor of the bin
+  double nearest = 0.45;  ///< m, of those looks from the plate; the farthest are 150 mm farther
+};
+
 /// Finds postures within reach, limits and free of collision with the cell (the tool is taken off for the plate, whose
-/// place it has). `poses`: looks of the hand-eye calibration. Throws SpecError when the cell has no camera on the
+/// place it has). Throws SpecError when the cell has no camera on the
 /// flange, or says what cannot be reached.
-CalibrationSetup calibration_setup(const Cell& cell, int poses);
+CalibrationSetup calibration_setup(const Cell& cell, const CalibrationPlaces& places);
 
 }  // namespace binpick

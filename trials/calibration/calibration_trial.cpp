@@ -134,6 +134,13 @@ Pose calibrate(const CalibrationSetup& setup, const CalibrationErrors& errors, C
   return by_method(setup, BuiltCell(setup, errors, normal), method);
 }
 
+Pose calibration_offset(const CalibrationSetup& setup, const CalibrationErrors& errors, CalibrationMethod method,
+                        Seed seed) {
+  Rng rng = seed.child("calibration").rng();
+  const Pose X_FC = calibrate(setup, errors, method, [&rng] { return rng.normal(); });
+  return setup.cell->camera.pose.inverse() * X_FC;
+}
+
 CalibrationError calibration_error(const CalibrationSetup& setup, const CalibrationErrors& errors,
                                    CalibrationMethod method, const Normals& normal) {
   const BuiltCell built(setup, errors, normal);

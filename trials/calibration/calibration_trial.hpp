@@ -26,6 +26,10 @@ struct CalibrationError {
 Pose calibrate(const CalibrationSetup& setup, const CalibrationErrors& errors, CalibrationMethod method,
                const Normals& normal);
 
+/// The same with the numbers of a seed: X_CC from the true camera to where it is believed, in C.
+Pose calibration_offset(const CalibrationSetup& setup, const CalibrationErrors& errors, CalibrationMethod method,
+                        Seed seed);
+
 /// calibrate(), then a pick in the same cell: a part in the middle of the bin is measured from the look pose with the
 /// depth camera's bias, and the tip sent to it by the drawn arm.
 CalibrationError calibration_error(const CalibrationSetup& setup, const CalibrationErrors& errors,
