@@ -24,6 +24,13 @@ if(BINPICK_WITH_SIM)
 
   pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
 
+  # Not find_package(ompl): its variables name a folder that does not exist and ODE, which only another planner needs.
+  find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 ompl-1.6 REQUIRED)
+  find_library(OMPL_LIBRARY NAMES ompl REQUIRED)
+  add_library(binpick_ompl INTERFACE)
+  target_include_directories(binpick_ompl SYSTEM INTERFACE ${OMPL_INCLUDE_DIR})
+  target_link_libraries(binpick_ompl INTERFACE ${OMPL_LIBRARY})
+
   find_path(KDL_INCLUDE_DIR kdl/chain.hpp REQUIRED)
   find_library(KDL_LIBRARY NAMES orocos-kdl REQUIRED)
   add_library(binpick_kdl INTERFACE)

@@ -28,6 +28,8 @@ std::string to_string(Obstacle obstacle) {
       return "the table";
     case Obstacle::kTray:
       return "the tray";
+    case Obstacle::kPlaced:
+      return "a part in the tray";
     case Obstacle::kSelf:
       return "itself";
     case Obstacle::kHeap:
@@ -37,9 +39,6 @@ std::string to_string(Obstacle obstacle) {
 }
 
 CollisionCheck::CollisionCheck(const Cell& cell, double clearance) : cell_(&cell), clearance_(clearance) {
-  const auto stand = [&](const std::vector<Primitive>& shapes, Obstacle kind) {
-    for (const Primitive& shape : shapes) standing_.push_back({shape, bounding_radius(shape), 0, kind, shape.X_OS});
-  };
   stand(cell.bin_W(), Obstacle::kBin);
   stand(cell.table_W(), Obstacle::kTable);
   stand(cell.tray_W(), Obstacle::kTray);
@@ -64,6 +63,10 @@ CollisionCheck::CollisionCheck(const Cell& cell, double clearance) : cell_(&cell
     const Primitive lip = Primitive::cylinder(cup.radius, length, X_FS);
     lips_F_.push_back({lip, bounding_radius(lip), kTool, Obstacle::kNone, Pose::Identity()});
   }
+}
+
+void CollisionCheck::stand(const std::vector<Primitive>& shapes_W, Obstacle kind) {
+  for (const Primitive& shape : shapes_W) standing_.push_back({shape, bounding_radius(shape), 0, kind, shape.X_OS});
 }
 
 Obstacle CollisionCheck::standing_hit(const Placed& mover) const {

@@ -1,5 +1,6 @@
-// Arm links, tool and camera against everything the robot knows: bin, table, tray, itself, and the perceived heap. All
-// shapes are primitives; the heap is points. Frames: links in their own, tool and camera in the flange frame F.
+// Arm links, tool and camera against everything the robot knows: bin, table, tray, the parts that lie in it, itself,
+// and the perceived heap. All shapes are primitives; the heap is points. Frames: links in their own, tool and camera in
+// the flange frame F.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,7 @@
 
 namespace binpick {
 
-enum class Obstacle { kNone, kBin, kTable, kTray, kSelf, kHeap };
+enum class Obstacle { kNone, kBin, kTable, kTray, kPlaced, kSelf, kHeap };
 std::string to_string(Obstacle obstacle);
 
 class CollisionCheck {
@@ -22,6 +23,8 @@ class CollisionCheck {
   /// From now on the heap counts too, without the points whose entry in `ignored` is not 0.
   void set_heap(const ObstacleMap* heap) { heap_ = heap; }
   void set_ignored(std::vector<char> ignored) { ignored_ = std::move(ignored); }
+  /// Parts that lie in the tray, as solids in W.
+  void add_placed(const std::vector<Primitive>& parts_W) { stand(parts_W, Obstacle::kPlaced); }
 
   /// The first obstacle met by the arm, the tool or the camera at q; with `lips`, by the lips too. At a contact they
   /// may touch the bin, for they give way; on a free way they may not.
@@ -50,6 +53,7 @@ class CollisionCheck {
     const Solid* solid;
     Pose X_WS;
   };
+  void stand(const std::vector<Primitive>& shapes_W, Obstacle kind);
   std::vector<Placed> robot_at(const Vector6d& q) const;
   Obstacle standing_hit(const Placed& mover) const;
   bool heap_hit(const Placed& mover) const;

@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "robot/inverse_kinematics.hpp"
 
 namespace binpick {
 namespace {
 
-constexpr double kOverRim = 0.020;   // m, everything that crosses the bin's rim clears it by this
-constexpr double kCarryGap = 0.010;  // m, between a carried part and bin, tray, table
-constexpr double kLeaning = 0.2;     // rad, parts that lean more are drawn off along their normal first
-constexpr double kDrawOff = 0.030;   // m
+constexpr double kLeaning = 0.2;    // rad, parts that lean more are drawn off along their normal first
+constexpr double kDrawOff = 0.030;  // m
 constexpr double kShortApproach = 0.4;
 constexpr double kFreeStep = 0.010;  // m, sampling of a way that begins inside the bin
-constexpr int kYaws = 12;            // turns of the tool over the tray that are tried
 constexpr std::size_t kStarts = 4;   // arm postures per tip pose that are tried
-constexpr int kWays = 8;             // ways to the tray that are checked in full
 
 /// z of the lowest point of `points_A` at X_WA.
 double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
@@ -26,26 +21,29 @@ double lowest(const std::vector<Eigen::Vector3d>& points_A, const Pose& X_WA) {
   return low;
 }
 
-Pose raised(const Pose& X, double height) { return Eigen::Translation3d(0, 0, height) * X; }
+}  // namespace
 
-std::string in_the_way(Obstacle obstacle, const char* where) {
+Pose MotionPlanner::raised(const Pose& X, double height) { return Eigen::Translation3d(0, 0, height) * X; }
+
+std::string MotionPlanner::in_the_way(Obstacle obstacle, const char* where) {
   return std::string(where) + " in collision with " + to_string(obstacle);
 }
-
-}  // namespace
 
 MotionPlanner::MotionPlanner(const Cell& cell, const PlanningConfig& config, const CollisionCheck& check,
                              const Vector6d& q_now)
     : cell_(cell), config_(config), check_(check), X_GF_(cell.gripper->X_FG().inverse()), q_now_(q_now) {}
 
-std::optional<PlannedMotion> MotionPlanner::plan(const PickTask& task, std::string& why) const {
+std::optional<PlannedMotion> MotionPlanner::plan(const PickTask& task, Refusal& refusal) const {
   PlannedMotion out;
   // A shorter straight way reaches places at the edge of the workspace.
-  std::string why_short;
-  if (!plan_approach(task, config_.approach, out, why) &&
-      !plan_approach(task, kShortApproach * config_.approach, out, why_short))
+  Refusal of_short;
+  if (!plan_approach(task, config_.approach, out, refusal) &&
+      !plan_approach(task, kShortApproach * config_.approach, out, of_short)) {
+    refusal.on_the_way |= of_short.on_the_way;
     return std::nullopt;
-  if (plan_lift(task, out, why) && plan_place(task, out, why)) return out;
+  }
+  refusal.on_the_way = false;
+  if (plan_lift(task, out, refusal.why) && plan_place(task, out, refusal)) return out;
   return std::nullopt;
 }
 
@@ -70,7 +68,7 @@ JointTrajectory MotionPlanner::slowed(const PickTask& task, const JointTrajector
 
 double MotionPlanner::rim() const { return (cell_.X_WB * Eigen::Vector3d(0, 0, cell_.bin.inner_size.z())).z(); }
 
-bool MotionPlanner::plan_approach(const PickTask& task, double approach, PlannedMotion& out, std::string& why) const {
+bool MotionPlanner::plan_approach(const PickTask& task, double approach, PlannedMotion& out, Refusal& refusal) const {
   const Pose X_pressed = task.X_WG * Eigen::Translation3d(0, 0, task.press);
   const Pose X_pre = task.X_WG * Eigen::Translation3d(0, 0, -approach);
   double lip_low = 0;  // how far a leaning tool's lowest lip hangs below the tip
@@ -81,43 +79,51 @@ bool MotionPlanner::plan_approach(const PickTask& task, double approach, Planned
   std::vector<Pose> tips = {X_pressed, X_pre};
   const double above = rim() + kOverRim + lip_low;
   if (X_pre.translation().z() < above) tips.push_back(raised(X_pre, above - X_pre.translation().z()));
-  why = "out of reach";
+  refusal.why = "out of reach";
   for (const Vector6d& q_start : joints_for(tips.back(), cell_.q_look))
-    if (approach_from(tips, q_start, out, why)) return true;
+    if (approach_from(tips, q_start, out, refusal)) return true;
   return false;
 }
 
 /// From where the arm stands to q_start; where that is blocked, back to the look pose first, the way it came.
 Obstacle MotionPlanner::way_to(const Vector6d& q_start, JointTrajectory& way) const {
   way = joint_move(*cell_.arm, q_now_, q_start, cell_.motion);
-  if (q_now_ == cell_.q_look) return check_.path_hit(way);
-  if (check_.path_hit(way, kFreeStep, true) == Obstacle::kNone) return Obstacle::kNone;
-  const JointTrajectory rest = joint_move(*cell_.arm, cell_.q_look, q_start, cell_.motion);
-  way = joined(joint_move(*cell_.arm, q_now_, cell_.q_look, cell_.motion), rest);
-  return check_.path_hit(rest);
+  const bool at_look = q_now_ == cell_.q_look;
+  Obstacle hit = at_look ? check_.path_hit(way) : check_.path_hit(way, kFreeStep, true);
+  if (hit == Obstacle::kNone) return hit;
+  if (!at_look) {
+    const JointTrajectory rest = joint_move(*cell_.arm, cell_.q_look, q_start, cell_.motion);
+    way = joined(joint_move(*cell_.arm, q_now_, cell_.q_look, cell_.motion), rest);
+    hit = check_.path_hit(rest);
+  }
+  if (hit == Obstacle::kNone) return hit;
+  const std::optional<JointTrajectory> found = around(cell_.q_look, q_start, nullptr);
+  if (!found) return hit;
+  way = at_look ? *found : joined(joint_move(*cell_.arm, q_now_, cell_.q_look, cell_.motion), *found);
+  return Obstacle::kNone;
 }
 
 /// From where the arm stands to q_start, then straight along `tips` from the last to the first.
 bool MotionPlanner::approach_from(const std::vector<Pose>& tips, const Vector6d& q_start, PlannedMotion& out,
-                                  std::string& why) const {
+                                  Refusal& refusal) const {
   std::vector<JointTrajectory> pieces;
   Vector6d q = q_start;
   for (std::size_t i = tips.size() - 1; i-- > 0;) {
     pieces.push_back(straight(q, tips[i]));
     if (pieces.back().empty()) {
-      why = "straight approach out of reach";
+      refusal.why = "straight approach out of reach";
       return false;
     }
     q = pieces.back().q.back();
   }
   for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
     if (const Obstacle hit = check_.path_hit(*piece); hit != Obstacle::kNone) {
-      why = in_the_way(hit, "approach");
+      refusal.why = in_the_way(hit, "approach");
       return false;
     }
   }
   if (const Obstacle hit = way_to(q_start, out.approach); hit != Obstacle::kNone) {
-    why = in_the_way(hit, "way to the bin");
+    refusal = {in_the_way(hit, "way to the bin"), true};
     return false;
   }
   for (const JointTrajectory& piece : pieces) out.approach = joined(out.approach, piece);
@@ -145,107 +151,6 @@ bool MotionPlanner::plan_lift(const PickTask& task, PlannedMotion& out, std::str
     why = in_the_way(hit, "lift");
     return false;
   }
-  return true;
-}
-
-MotionPlanner::Place MotionPlanner::place_at(const PickTask& task, double yaw) const {
-  const Eigen::Matrix3d R_WG =
-      rotation_with_z(-Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
-  Place place;
-  // A part that is held leaning is laid down flat: the tool leans instead.
-  const Eigen::Matrix3d upright =
-      Eigen::Quaterniond::FromTwoVectors(R_WG * task.X_GP.linear() * task.up_P, Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
-  place.X_WG = pose_from(upright * R_WG, Eigen::Vector3d::Zero());
-  place.X_WP = place.X_WG * task.X_GP;
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p_P : task.outline_P) box.extend(place.X_WP * p_P);
-  Eigen::Vector3d wanted = cell_.tray.X_WT * Eigen::Vector3d(task.slot_T.x(), task.slot_T.y(), 0);
-  wanted.z() += task.layer_height + config_.place_height;
-  const Eigen::Vector3d shift = wanted - Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
-  place.X_WG = Eigen::Translation3d(shift) * place.X_WG;
-  place.X_WP = Eigen::Translation3d(shift) * place.X_WP;
-  // Over the tray's wall and over neighbours that stand as high as this part.
-  place.over = std::max(cell_.tray.inner_size.z(), box.sizes().z()) + kOverRim;
-  return place;
-}
-
-/// Ways to come down over the place: turns of the tool, and how high the joint motion ends. The quickest first; a low
-/// end saves a slow straight way, but the joint motion may then dip below the bin's rim.
-std::vector<MotionPlanner::WayToPlace> MotionPlanner::ways_to_place(const PickTask& task,
-                                                                    const Vector6d& q_lifted) const {
-  std::vector<WayToPlace> ways;
-  const double lifted = cell_.tip_pose(q_lifted).translation().z();
-  for (int k = 0; k < kYaws; ++k) {
-    const Place place = place_at(task, 2 * std::numbers::pi * k / kYaws);
-    const double most = std::max(place.over, lifted - place.X_WG.translation().z());
-    for (const double over : {place.over, (place.over + most) / 2, most}) {
-      for (const Vector6d& q : joints_for(raised(place.X_WG, over), q_lifted)) {
-        const double turning =
-            joint_time(*cell_.arm, q_lifted, q, cell_.motion) + joint_time(*cell_.arm, q, cell_.q_look, cell_.motion);
-        ways.push_back(
-            {place, over, q, turning + 2 * over / (cell_.motion.linear_speed * cell_.motion.speed_override)});
-      }
-    }
-  }
-  std::stable_sort(ways.begin(), ways.end(), [](const WayToPlace& a, const WayToPlace& b) { return a.time < b.time; });
-  return ways;
-}
-
-bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, std::string& why) const {
-  const Vector6d q_lifted = out.lift.q.back();
-  why = "place out of reach";
-  int tried = 0;
-  for (const WayToPlace& way : ways_to_place(task, q_lifted)) {
-    // A way whose end is blocked is no way: it costs one look, and does not count among those that are tried in full.
-    if (const Obstacle hit = check_.hit(way.q_over); hit != Obstacle::kNone) {
-      why = in_the_way(hit, "release");
-      continue;
-    }
-    // A part that is carried through the bin's wall is the commonest fault, and the cheapest to see.
-    const JointTrajectory carry = joint_move(*cell_.arm, q_lifted, way.q_over, cell_.motion);
-    if (const Obstacle hit = carried_hit(task, carry); hit != Obstacle::kNone) {
-      why = in_the_way(hit, "carried part");
-      continue;
-    }
-    if (place_by(task, way, carry, out, why)) return true;
-    if (++tried == kWays) break;
-  }
-  return false;
-}
-
-Obstacle MotionPlanner::carried_hit(const PickTask& task, const JointTrajectory& carry) const {
-  Obstacle hit = Obstacle::kNone;
-  Vector6d last = Vector6d::Constant(1e9);
-  for (std::size_t k = 0; k < carry.q.size() && hit == Obstacle::kNone; ++k) {
-    if ((carry.q[k] - last).cwiseAbs().maxCoeff() < 0.02 && k + 1 < carry.q.size()) continue;
-    last = carry.q[k];
-    const Pose X_WP = cell_.tip_pose(last) * task.X_GP;
-    std::vector<Eigen::Vector3d> held_W;
-    for (const Eigen::Vector3d& p_P : task.outline_P) held_W.push_back(X_WP * p_P);
-    hit = check_.points_hit(held_W, -kCarryGap);
-  }
-  return hit;
-}
-
-bool MotionPlanner::place_by(const PickTask& task, const WayToPlace& way, const JointTrajectory& carry,
-                             PlannedMotion& out, std::string& why) const {
-  const JointTrajectory down = straight(way.q_over, way.place.X_WG);
-  const JointTrajectory up = down.empty() ? down : straight(down.q.back(), raised(way.place.X_WG, way.place.over));
-  if (up.empty()) {
-    why = "straight way down to the tray out of reach";
-    return false;
-  }
-  const JointTrajectory home = joint_move(*cell_.arm, up.q.back(), cell_.q_look, cell_.motion);
-  for (const JointTrajectory* path : {&down, &carry, &home}) {
-    const Obstacle hit = check_.path_hit(*path);
-    if (hit == Obstacle::kNone) continue;
-    why = in_the_way(hit, path == &down ? "release" : path == &carry ? "way to the tray" : "way back");
-    return false;
-  }
-  out.place = joined(slowed(task, carry), slowed(task, down));
-  out.back = joined(up, home);
-  out.X_WP_place = way.place.X_WP;
   return true;
 }
 

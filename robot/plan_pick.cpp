@@ -30,6 +30,20 @@ void mark_failed(std::vector<Target>& targets, std::span<const Part> parts, std:
   }
 }
 
+/// Turns of the tool about one site follow one another, and mostly end alike: where some have been blocked on their
+/// ways, each a dear thing to find out, only some of the others are tried.
+struct SpinsInARow {
+  std::size_t target = 0;
+  double cost = -1;
+  int count = 0, blocked = 0;
+
+  bool worth(const PickCandidate& candidate) {
+    constexpr int kBlocked = 6, kEvery = 6;
+    if (candidate.target != target || candidate.cost != cost) *this = {candidate.target, candidate.cost, 0, 0};
+    return count++ % kEvery == 0 || blocked < kBlocked;
+  }
+};
+
 std::string summary(const std::map<std::string, int>& rejections) {
   std::vector<std::pair<std::string, int>> sorted(rejections.begin(), rejections.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -49,7 +63,11 @@ void PlanningConfig::visit(ConfigVisitor& v) {
           "tool axis off the surface's normal, as far as plungers and lips allow it");
   v.field("spins", spins, "turns about a site's normal that are tried");
   v.field("max_candidates", max_candidates, "candidates that are checked in full");
+  v.field("search_checks", search_checks,
+          "joint positions that a look may check in search of ways around obstacles; 0: direct ways only");
   v.field("press", press, Unit::kLength, "how far the lips are pressed beyond the believed contact");
+  v.field("carry_tilt", carry_tilt, Unit::kAngle,
+          "how much further than at pick and at place the tool may tilt on the way to the tray");
   v.field("place_height", place_height, Unit::kLength, "part's lowest point above the tray floor at release");
   v.field("min_score", min_score, Unit::kNone, "estimates with a lower score are not picked");
   v.field("acceleration", acceleration, Unit::kAcceleration,
@@ -68,7 +86,9 @@ void PlanningConfig::validate() const {
   need(max_lean >= 0 && max_lean <= 0.5, "max_lean: must lie between 0 and 0.5 rad");
   need(spins >= 1 && spins <= 360, "spins: must lie between 1 and 360");
   need(max_candidates >= 1 && max_candidates <= 100000, "max_candidates: must lie between 1 and 100000");
+  need(search_checks >= 0 && search_checks <= 10000000, "search_checks: must lie between 0 and 10000000");
   need(press >= 0 && press <= 0.05, "press: must lie between 0 and 50 mm");
+  need(carry_tilt >= 0.01 && carry_tilt <= 3.15, "carry_tilt: must lie between 0.01 rad and 180 degrees");
   need(place_height >= 0 && place_height <= 0.2, "place_height: must lie between 0 and 200 mm");
   need(min_score >= 0 && min_score <= 1, "min_score: must lie between 0 and 1");
   need(acceleration >= 0.1 && acceleration <= 100, "acceleration: must lie between 0.1 and 100 m/s^2");
@@ -92,9 +112,20 @@ struct PickPlanner::Impl {
     tool = tool_freedom(*cell.gripper, config);
   }
 
+  /// A candidate that only free motions stood against, and its entry among the rejected.
+  struct Blocked {
+    const PickCandidate* candidate;
+    std::size_t rejected;
+  };
+  std::vector<CollisionCheck> checks_for(const std::vector<Target>& targets, const ObstacleMap& heap,
+                                         const PickStart& start) const;
   std::optional<PickPlan> try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
                                          const PickStart& start, PlanResult& result) const;
-  PickTask task_of(const PickCandidate& candidate, const Target& target, int placed) const;
+  std::optional<PickPlan> search_ways(const std::vector<Target>& targets, const std::vector<Blocked>& blocked,
+                                      const std::vector<CollisionCheck>& checks, const PickStart& start,
+                                      PlanResult& result) const;
+  static PickPlan plan_of(const Target& target, const PickCandidate& candidate, const PlannedMotion& motion);
+  PickTask task_of(const PickCandidate& candidate, const Target& target, const PickStart& start) const;
 
   Cell cell;
   std::span<const Part> parts;
@@ -105,7 +136,8 @@ struct PickPlanner::Impl {
   ToolFreedom tool;
 };
 
-PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target& target, int placed) const {
+PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target& target,
+                                    const PickStart& start) const {
   PickTask task;
   task.X_WG = candidate.X_WG;
   task.X_WP = candidate.X_WP;
@@ -118,53 +150,89 @@ PickTask PickPlanner::Impl::task_of(const PickCandidate& candidate, const Target
   task.up_P = candidate.site.X_PK.linear().col(2);
   task.outline_P = outlines_P[target.part];
   task.center_P = parts[target.part].mass.center_P;
-  const TraySlot slot = tray_slot(cell.tray.inner_size, parts[target.part].diameter, placed);
+  const TraySlot slot = tray_slot(cell.tray.inner_size, parts[target.part].diameter, start.placed);
   task.slot_T = slot.center_T;
   task.layer_height = slot.layer * height_along(task.outline_P, candidate.site.X_PK.linear().col(2));
   return task;
+}
+
+/// What each target is held against: its own points of the heap do not count.
+std::vector<CollisionCheck> PickPlanner::Impl::checks_for(const std::vector<Target>& targets, const ObstacleMap& heap,
+                                                          const PickStart& start) const {
+  CollisionCheck empty(cell, config.clearance);
+  std::vector<Primitive> placed_W;
+  for (const PlacedPart& placed : start.in_tray)
+    placed_W.push_back(box_in_tray(cell.tray, outlines_P[placed.part], placed.X_WP, config.place_height));
+  empty.add_placed(placed_W);
+  std::vector<CollisionCheck> checks(targets.size(), empty);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    checks[t].set_heap(&heap);
+    checks[t].set_ignored(targets[t].own_points);
+  }
+  return checks;
 }
 
 std::optional<PickPlan> PickPlanner::Impl::try_candidates(const std::vector<Target>& targets, const ObstacleMap& heap,
                                                           const PickStart& start, PlanResult& result) const {
   const std::vector<PickCandidate> candidates =
       ranked_candidates(targets, {parts, sites, tool, config}, result.rejections);
-  const auto reject = [&](const PickCandidate& candidate, const std::string& why) {
-    ++result.rejections[why];
-    result.rejected.push_back({targets[candidate.target].estimate, candidate.X_WG, why});
-  };
+  std::vector<CollisionCheck> checks = checks_for(targets, heap, start);
   const Pose X_GF = cell.gripper->X_FG().inverse();
-  std::vector<CollisionCheck> checks(targets.size(), CollisionCheck(cell, config.clearance));
-  for (std::size_t t = 0; t < targets.size(); ++t) {
-    checks[t].set_heap(&heap);
-    checks[t].set_ignored(targets[t].own_points);
-  }
   // No estimate may use up the whole budget, so that a hopeless first one does not hide a good second one.
   const int share = std::max(24, config.max_candidates / std::max<int>(1, static_cast<int>(targets.size())));
   std::vector<int> used(targets.size(), 0);
+  std::vector<Blocked> blocked;
+  SpinsInARow spins;
   int checked = 0;
   for (const PickCandidate& candidate : candidates) {
     if (checked >= config.max_candidates) break;
-    if (used[candidate.target] >= share) continue;
+    if (!spins.worth(candidate) || used[candidate.target] >= share) continue;
     const Target& target = targets[candidate.target];
-    CollisionCheck& check = checks[candidate.target];
+    const CollisionCheck& check = checks[candidate.target];
     // The tool alone at contact is quickly looked at and does not count.
     if (const Obstacle hit = check.tool_hit(candidate.X_WG * X_GF); hit != Obstacle::kNone) {
-      reject(candidate, "at contact in collision with " + to_string(hit));
+      result.rejected.push_back({target.estimate, candidate.X_WG, "at contact in collision with " + to_string(hit)});
       continue;
     }
     ++checked;
     ++used[candidate.target];
-    std::string why;
+    Refusal refusal;
     const MotionPlanner planner(cell, config, check, start.q_now.value_or(cell.q_look));
-    const auto motion = planner.plan(task_of(candidate, target, start.placed), why);
-    if (!motion) {
-      reject(candidate, why);
-      continue;
+    const auto motion = planner.plan(task_of(candidate, target, start), refusal);
+    if (motion) return plan_of(target, candidate, *motion);
+    if (refusal.on_the_way) blocked.push_back({&candidate, result.rejected.size()});
+    if (refusal.on_the_way) ++spins.blocked;
+    result.rejected.push_back({target.estimate, candidate.X_WG, refusal.why});
+  }
+  return search_ways(targets, blocked, checks, start, result);
+}
+
+/// When no candidate can be had by direct motions: ways around what blocked the best of them are searched.
+std::optional<PickPlan> PickPlanner::Impl::search_ways(const std::vector<Target>& targets,
+                                                       const std::vector<Blocked>& blocked,
+                                                       const std::vector<CollisionCheck>& checks,
+                                                       const PickStart& start, PlanResult& result) const {
+  int checks_left = config.search_checks;
+  for (const Blocked& entry : blocked) {
+    if (checks_left <= 0) break;
+    const PickCandidate& candidate = *entry.candidate;
+    const Target& target = targets[candidate.target];
+    MotionPlanner planner(cell, config, checks[candidate.target], start.q_now.value_or(cell.q_look));
+    planner.search_with(&checks_left);
+    Refusal refusal;
+    const auto motion = planner.plan(task_of(candidate, target, start), refusal);
+    if (motion) {
+      result.rejected.erase(result.rejected.begin() + static_cast<std::ptrdiff_t>(entry.rejected));
+      return plan_of(target, candidate, *motion);
     }
-    return PickPlan{target.estimate,  candidate.site, candidate.X_WG, candidate.X_WP, motion->X_WP_place,
-                    motion->approach, motion->lift,   motion->place,  motion->back};
+    result.rejected[entry.rejected].reason += ", no way around found";
   }
   return std::nullopt;
+}
+
+PickPlan PickPlanner::Impl::plan_of(const Target& target, const PickCandidate& candidate, const PlannedMotion& motion) {
+  return {target.estimate, candidate.site, candidate.X_WG, candidate.X_WP, motion.X_WP_place,
+          motion.approach, motion.lift,    motion.place,   motion.back};
 }
 
 PickPlanner::PickPlanner(const Cell& cell, std::span<const Part> parts, const PlanningConfig& config)
@@ -189,6 +257,7 @@ PlanResult PickPlanner::plan(const EstimateResult& found, const SceneView& view,
       ++result.rejections["no seal predicted (" + impl_->parts[target.part].name + ": " + sites.why_none + ")"];
   }
   result.plan = impl_->try_candidates(targets, heap, start, result);
+  for (const RejectedCandidate& candidate : result.rejected) ++result.rejections[candidate.reason];
   result.outcome = result.plan               ? PickOutcome::kSucceeded
                    : found.estimates.empty() ? PickOutcome::kNoDetection
                                              : PickOutcome::kNoReachablePick;

@@ -22,8 +22,10 @@ struct PlanningConfig {
   double max_tool_tilt = 1.1;  ///< rad, between tool axis and vertical
   int spins = 36;              ///< turns about the site's normal that are tried
   int max_candidates = 400;    ///< candidates whose motions are planned; the tool alone at contact is checked for all
+  int search_checks = 20000;   ///< joint positions that a look may check while it searches ways around obstacles
   double press = 0.004;        ///< m, how far the lips are pressed beyond the believed contact: twice the paper's
                                ///< mean height error of 2 mm, so that a part believed too high is still touched
+  double carry_tilt = 0.17;  ///< rad, how much further than at pick and place the tool may tilt on the way to the tray
   double place_height = 0.01;  ///< m, part's lowest point above the tray floor when it is released
   double min_score = 0.0;      ///< estimates below are not picked
   double acceleration = 3;  ///< m/s^2 of a held part, and added to gravity when a hold is checked (physical_models B1)
@@ -62,11 +64,18 @@ struct PlanResult {
   double wall = 0;  ///< s, decides nothing
 };
 
+/// A part that lies in the tray, as the robot believes: where it let go of it.
+struct PlacedPart {
+  std::size_t part = 0;
+  Pose X_WP = Pose::Identity();
+};
+
 /// What a plan starts from, beside what was seen.
 struct PickStart {
   int placed = 0;                             ///< parts already in the tray: chooses the slot
   std::span<const Eigen::Vector3d> failed_W;  ///< middles of believed parts at which a pick has just failed: come last
   std::optional<Vector6d> q_now;              ///< where the arm stands, reached straight from the look pose; else there
+  std::span<const PlacedPart> in_tray = {};   ///< obstacles
 };
 
 /// Holds what depends on cell, parts and config alone (pick sites, prepared meshes); one per worker serves any number

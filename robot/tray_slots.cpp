@@ -30,6 +30,15 @@ TraySlot tray_slot(const Eigen::Vector3d& inner_size, double diameter, int place
   return slot;
 }
 
+Primitive box_in_tray(const TraySpec& tray, const std::vector<Eigen::Vector3d>& outline_P, const Pose& X_WP,
+                      double fall) {
+  const Pose X_TP = tray.X_WT.inverse() * X_WP;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p_P : outline_P) box.extend(X_TP * p_P);
+  box.min().z() -= fall;
+  return Primitive::box(box.sizes(), tray.X_WT * Eigen::Translation3d(box.center()));
+}
+
 std::vector<Eigen::Vector3d> outline_of(const TriangleMesh& mesh_P) {
   constexpr int kDirections = 162;
   std::set<std::size_t> extreme;

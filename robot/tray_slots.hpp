@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh.hpp"
+#include "robot/cell.hpp"
 
 namespace binpick {
 
@@ -16,6 +17,11 @@ struct TraySlot {
 
 /// Place of part number `placed` (from 0). A part wider than the tray gets its middle.
 TraySlot tray_slot(const Eigen::Vector3d& inner_size, double diameter, int placed);
+
+/// What a part of this outline takes up once it was let go of at X_WP: a box square to the tray, in W. It has come down
+/// by up to `fall`.
+Primitive box_in_tray(const TraySpec& tray, const std::vector<Eigen::Vector3d>& outline_P, const Pose& X_WP,
+                      double fall);
 
 /// A few dozen vertices that bound the mesh: the extreme one along each of 162 even directions.
 std::vector<Eigen::Vector3d> outline_of(const TriangleMesh& mesh_P);

@@ -82,6 +82,7 @@ struct Run {
   TrialPictures* pictures;
   std::vector<Eigen::Vector3d> failed_W;  // middles of believed parts at which picks have failed since the last success
   std::vector<Eigen::Vector3d> ever_failed_W;  // and since the first look: whoever succeeds elsewhere forgets nothing
+  std::vector<PlacedPart> in_tray;             // parts that succeeded, where the robot let go of them
 };
 
 // The arm moves: what comes of it.
@@ -114,7 +115,7 @@ void note_sight(const Run& run, const Sight& sight, PickRecord& record) {
 PickRecord pick_once(Run& run, int pick) {
   PickRecord record;
   record.sim_time = run.s.trial.exposure;
-  const PickStart start{count_in(run.cell_world, &CellWorld::in_tray), run.failed_W, {}};
+  const PickStart start{count_in(run.cell_world, &CellWorld::in_tray), run.failed_W, {}, run.in_tray};
   const Seed estimator_seed = run.seed.child("estimator", static_cast<std::uint64_t>(pick));
   Sight sight;
   sight.seen = observe(run.s, run.cell_world, run.context, run.seed, pick);
@@ -136,6 +137,8 @@ PickRecord pick_once(Run& run, int pick) {
     const Eigen::Vector3d middle_W = sight.plan.plan->X_WP_est * part.box_center_P;
     run.failed_W.push_back(middle_W);
     if (record.outcome != PickOutcome::kSucceeded) run.ever_failed_W.push_back(middle_W);
+    if (record.outcome == PickOutcome::kSucceeded)
+      run.in_tray.push_back({sight.found.estimates[sight.plan.plan->estimate].part, sight.plan.plan->X_WP_place});
   }
   const double away = (run.cell_world.joints() - run.s.cell.q_look).cwiseAbs().maxCoeff();
   if (away > 1e-6) return_home(look, record);  // nothing was picked from where the second look was taken
@@ -178,7 +181,7 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   record.woken_share = heap.woken.moved_share;
   record.drop_hash = cell_world.world().state_hash();
   if (heap.settled && heap.escaped.empty()) {
-    Run run_state{s, cell_world, context, seed, pictures, {}, {}};
+    Run run_state{s, cell_world, context, seed, pictures, {}, {}, {}};
     pick_until_done(run_state, record);
     return;
   }

@@ -53,6 +53,7 @@ const std::map<std::string, Names> kThirdParties = {
     {"TopoDS", {"core", "tools"}},
     {"gp_", {"core", "tools"}},
     {"kdl/", {"robot"}},
+    {"ompl/", {"robot"}},
     {"CLI/", {"tools"}},
 };
 

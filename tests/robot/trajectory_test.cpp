@@ -6,6 +6,7 @@
 
 #include "foreign_arms.hpp"
 #include "robot/inverse_kinematics.hpp"
+#include "robot/joint_path.hpp"
 
 namespace binpick {
 namespace {
@@ -131,6 +132,48 @@ TEST(JointTrajectory, SamplesLinearlyAndClamps) {
   const JointTrajectory twice = joined(path, path);
   EXPECT_EQ(twice.duration(), 6);
   EXPECT_EQ(twice.q.size(), 5u);
+}
+
+Vector6d joints(double q1, double q2) { return (Vector6d() << q1, q2, 0, 0, 1.5, 0).finished(); }
+
+TEST(JointPath, PassesItsPointsWithinTheLimits) {
+  const Arm arm = mz07();
+  const MotionLimits limits;
+  const Rng rng = Seed{7}.child("joint_path").rng();
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    std::vector<Vector6d> points;
+    for (std::uint64_t i = 0; i < 3 + k % 3; ++i) points.push_back(random_joints(arm, rng.at(10 * k + i)));
+    const JointTrajectory path = joint_path(arm, points, limits);
+    EXPECT_EQ(path.q.front(), points.front());
+    EXPECT_EQ(path.q.back(), points.back());
+    const Load load = load_of(arm, path, limits);
+    EXPECT_LE(load.speed, 1 + 1e-9) << "draw " << k;
+    EXPECT_LE(load.acceleration, 1.05) << "draw " << k;  // mean speeds of steps of 10 ms
+    double stops = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) stops += joint_time(arm, points[i - 1], points[i], limits);
+    EXPECT_LT(path.duration(), stops) << "draw " << k;
+  }
+}
+
+TEST(JointPath, CornersStayInsideTheTriangle) {
+  const Arm arm = mz07();
+  const JointTrajectory path = joint_path(arm, {joints(0, 0), joints(1, 0), joints(1, 1)}, {});
+  double nearest = 1;
+  for (const Vector6d& q : path.q) {
+    EXPECT_LE(q[0], 1 + 1e-12);
+    EXPECT_GE(q[1], -1e-12);
+    EXPECT_LE(q[1], q[0] + 1e-12);
+    nearest = std::min(nearest, (q - joints(1, 0)).norm());
+  }
+  // The middle of a parabola from (0.5, 0) by (1, 0) to (1, 0.5) is (0.875, 0.125).
+  EXPECT_NEAR(nearest, std::sqrt(2.0) / 8, 0.01);
+}
+
+TEST(JointPath, AlongOneLineItTakesTheTimeOfTheDirectMotion) {
+  const Arm arm = mz07();
+  const Vector6d q_1 = joints(-0.5, 0), q_2 = joints(1.5, 0.4);
+  const JointTrajectory path = joint_path(arm, {q_1, (q_1 + q_2) / 2, q_2}, {});
+  EXPECT_NEAR(path.duration(), joint_time(arm, q_1, q_2, {}), 0.01);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <tuple>
 
 #include "core/file_io.hpp"
@@ -19,10 +20,25 @@ struct Options {
   bool rows = false;
 };
 
+double degrees(double angle) { return angle * 180 / std::numbers::pi; }
+
 std::vector<double> milliseconds(const std::vector<PlanningCost>& costs) {
   std::vector<double> ms;
   for (const PlanningCost& cost : costs) ms.push_back(1e3 * cost.cpu);
   return ms;
+}
+
+void print_row(const PlanningCost& cost) {
+  std::printf("seed %llu pick %d: %6.1f ms, %zu estimates, %zu candidates given up, ",
+              static_cast<unsigned long long>(cost.seed), cost.pick, 1e3 * cost.cpu, cost.estimates, cost.rejected);
+  if (!cost.planned) {
+    std::printf("%s\n", cost.reason.c_str());
+    return;
+  }
+  std::printf(
+      "tilt %.0f, at most %.0f, %.0f deg; approach %.2f, lift %.2f, place %.2f, back %.2f, all %.2f s; %s%s%s\n",
+      degrees(cost.tilt_pick), degrees(cost.tilt_carry), degrees(cost.tilt_place), cost.approach, cost.lift, cost.place,
+      cost.back, cost.executed, cost.outcome.c_str(), cost.ended.empty() ? "" : ", ", cost.ended.c_str());
 }
 
 void print_costs(const std::vector<PlanningCost>& costs, bool rows) {
@@ -31,10 +47,7 @@ void print_costs(const std::vector<PlanningCost>& costs, bool rows) {
   for (const PlanningCost& cost : costs) {
     planned += cost.planned;
     ++outcomes[cost.planned ? cost.outcome : "no plan"];
-    if (rows)
-      std::printf("seed %llu pick %d: %6.1f ms, %zu estimates, %zu candidates given up, %s\n",
-                  static_cast<unsigned long long>(cost.seed), cost.pick, 1e3 * cost.cpu, cost.estimates, cost.rejected,
-                  cost.planned ? cost.outcome.c_str() : cost.reason.c_str());
+    if (rows) print_row(cost);
   }
   const std::vector<double> ms = milliseconds(costs);
   if (ms.empty()) return;
@@ -55,7 +68,16 @@ void write_costs(const std::vector<PlanningCost>& costs, const std::string& path
                     {"estimates", cost.estimates},
                     {"rejected", cost.rejected},
                     {"reason", cost.reason},
-                    {"outcome", cost.outcome}});
+                    {"outcome", cost.outcome},
+                    {"ended", cost.ended},
+                    {"tilt_rad", {{"pick", cost.tilt_pick}, {"carry", cost.tilt_carry}, {"place", cost.tilt_place}}},
+                    {"motion_s",
+                     {{"approach", cost.approach},
+                      {"lift", cost.lift},
+                      {"place", cost.place},
+                      {"back", cost.back},
+                      {"vacuum", cost.vacuum},
+                      {"executed", cost.executed}}}});
   write_file(path, nlohmann::ordered_json{{"rows", rows}}.dump(2) + "\n");
 }
 

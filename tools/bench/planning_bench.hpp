@@ -22,6 +22,11 @@ struct PlanningCost {
   std::size_t estimates = 0, rejected = 0;  ///< candidates tried and given up
   std::string reason;                       ///< when nothing was planned
   std::string outcome;                      ///< of the executed pick
+  std::string ended;                        ///< what ended it early, as its record says
+  /// Of the planned pick: the tool off the vertical (rad) at contact, at release, and at most in between.
+  double tilt_pick = 0, tilt_place = 0, tilt_carry = 0;
+  /// s, of the plan's four motions; of the whole execution, and of its vacuum (contact, build-up, venting).
+  double approach = 0, lift = 0, place = 0, back = 0, executed = 0, vacuum = 0;
 };
 
 std::vector<PlanningCost> bench_planning(const PlanningBenchConfig& config);
