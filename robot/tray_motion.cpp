@@ -112,11 +112,12 @@ bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, Refusal
       refusal.why = in_the_way(hit, "release");
       continue;
     }
-    ++examined;
     const JointTrajectory carry = carry_by(q_lifted, way);
     if (const std::string fault = carry_fault(task, carry); !fault.empty()) {
       if (!refusal.on_the_way || fault != kTilted) refusal.why = fault;  // what stands in the way says more
       refusal.on_the_way = true;
+      if (fault == kTilted) continue;  // quickly seen
+      ++examined;
       if (way.via || turned == kTurned) continue;
       const auto next = ways.begin() + static_cast<std::ptrdiff_t>(i) + 1;
       if (const auto over = over_the_edge(task, way, carry)) {
@@ -134,10 +135,13 @@ bool MotionPlanner::plan_place(const PickTask& task, PlannedMotion& out, Refusal
 /// Searches a way to the quickest places whose ends are free.
 bool MotionPlanner::search_place(const PickTask& task, const std::vector<WayToPlace>& ways, PlannedMotion& out) const {
   int searched = 0;
+  const Vector6d& q_lifted = out.lift.q.back();
   for (std::size_t i = 0; i < ways.size() && searched < kSearchedWays && checks_left_ && *checks_left_ > 0; ++i) {
     if (ways[i].via || check_.hit(ways[i].q_over) != Obstacle::kNone) continue;
+    // Where the direct way throws the tool over, the wrist ends the other way up: no upright way leads there.
+    if (largest_tilt(cell_, carry_by(q_lifted, ways[i])) > tilt_bound(q_lifted, ways[i].q_over)) continue;
     ++searched;
-    const std::optional<JointTrajectory> carry = around(out.lift.q.back(), ways[i].q_over, &task);
+    const std::optional<JointTrajectory> carry = around(q_lifted, ways[i].q_over, &task);
     Refusal ignored;
     if (carry && place_by(task, ways[i], *carry, out, ignored)) return true;
   }
