@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -41,6 +42,18 @@ double binomial_at_least(std::size_t hits, std::size_t total, double p) {
   if (hits > total) return 0;
   const boost::math::binomial_distribution<> binomial(static_cast<double>(total), p);
   return boost::math::cdf(boost::math::complement(binomial, static_cast<double>(hits - 1)));
+}
+
+Interval student_interval(std::span<const double> values, double confidence) {
+  BP_CHECK(confidence > 0 && confidence < 1, "confidence " << confidence);
+  const double infinity = std::numeric_limits<double>::infinity();
+  if (values.size() < 2) return {-infinity, infinity};
+  const double n = static_cast<double>(values.size()), middle = mean(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - middle) * (value - middle);
+  const double t = boost::math::quantile(boost::math::students_t(n - 1), 0.5 + confidence / 2);
+  const double half = t * std::sqrt(squares / (n - 1) / n);
+  return {middle - half, middle + half};
 }
 
 double normal_quantile(double p) {

@@ -24,6 +24,9 @@ Interval clopper_pearson(std::size_t hits, std::size_t total, double confidence 
 /// P(X >= hits) for X binomial of `total` trials at rate p.
 double binomial_at_least(std::size_t hits, std::size_t total, double p);
 
+/// Student's interval of a mean from independent values; all numbers for fewer than two.
+Interval student_interval(std::span<const double> values, double confidence = 0.95);
+
 /// Standard normal: the z with P(Z < z) = p, p in (0, 1).
 double normal_quantile(double p);
 

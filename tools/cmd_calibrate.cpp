@@ -13,6 +13,7 @@
 #include "core/yaml.hpp"
 #include "evaluation/statistics.hpp"
 #include "tools/commands.hpp"
+#include "tools/validate/calibration_plots.hpp"
 #include "trials/calibration/calibration_trial.hpp"
 #include "trials/scenario.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 struct Options {
-  std::string scene, seeds = "5000:5200", json, errors;
+  std::string scene, seeds = "5000:5200", json, errors, plots;
   int poses = 15;
 };
 
@@ -85,6 +86,7 @@ std::string json_of(const std::vector<Row>& rows) {
 int run(const Options& options) {
   const auto seeds = parse_seeds(options.seeds);
   if (seeds.second - seeds.first > 100000) throw SpecError("--seeds: at most 100000");
+  if (!options.plots.empty()) make_folder(options.plots);
   if (!options.json.empty()) write_file(options.json, "[]\n");  // a place that cannot be written is known at once
   CalibrationErrors errors;
   if (!options.errors.empty())
@@ -96,6 +98,9 @@ int run(const Options& options) {
   const CalibrationSetup setup = calibration_setup(scenario.cell, {options.poses});
   const std::vector<Row> rows = rows_of(setup, errors, seeds);
   if (!options.json.empty()) write_file(options.json, json_of(rows));
+  if (!options.plots.empty() && !plot_calibration(scenario.cell, errors, seeds.first,
+                                                  static_cast<int>(seeds.second - seeds.first), options.plots))
+    std::cerr << "note: gnuplot is not installed; the scripts in " << options.plots << " draw the curves\n";
   std::cout << text_of(rows, seeds.second - seeds.first) << std::flush;
   if (!std::cout) throw StorageError("standard output: cannot write");
   return 0;
@@ -112,6 +117,7 @@ Action add_calibrate(CLI::App& app) {
   command->add_option("--poses", options->poses, "looks of the hand-eye calibration")->check(CLI::Range(3, 100));
   command->add_option("--errors", options->errors, "YAML with standard deviations in place of the defaults");
   command->add_option("--json", options->json, "file for the figures, SI");
+  command->add_option("--plots", options->plots, "folder for curves over corner noise, looks and range, and by source");
   return [options] { return run(*options); };
 }
 

@@ -7,6 +7,7 @@
 #include "core/file_io.hpp"
 #include "tools/commands.hpp"
 #include "tools/validate/calibration_bench.hpp"
+#include "tools/validate/calibration_plots.hpp"
 #include "tools/validate/physics_bench.hpp"
 #include "tools/validate/sensor_plots.hpp"
 #include "tools/validate/suction_bench.hpp"
@@ -80,6 +81,9 @@ std::vector<Verdict> validate_calibration(const Options& options) {
   CalibrationBench bench(first, static_cast<int>(last - first));
   for (void (*check)(CalibrationBench&) : {check_plate_pose, check_chain, report_pick_error, check_hand_eye})
     check(bench);
+  if (!options.plots.empty())
+    drawn_or_said(plot_calibration(*bench.setup().cell, {}, first, static_cast<int>(last - first), options.plots),
+                  options.plots);
   return bench.verdicts();
 }
 
