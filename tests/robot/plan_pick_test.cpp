@@ -78,11 +78,13 @@ TEST(PlanPick, BearingsInAllFourCornersAndAlongTheWalls) {
   // Touching both walls, 0.5 mm away from them.
   Scene scene("mz07_three_cups", "bearing_6914");
   const double x = scene.cell.bin.inner_size.x() / 2 - 0.0505, y = scene.cell.bin.inner_size.y() / 2 - 0.0505;
+  const PickPlanner planner(scene.cell, scene.parts, {});
   for (const double sx : {-1.0, 0.0, 1.0}) {
     for (const double sy : {-1.0, 0.0, 1.0}) {
       Scene corner("mz07_three_cups", "bearing_6914");
       corner.add(flat(sx * x, sy * y));
-      const PlanResult result = corner.plan();
+      corner.see();
+      const PlanResult result = planner.plan(corner.found, corner.view, corner.X_WC, {});
       ASSERT_TRUE(result.plan) << sx << ' ' << sy << ": " << result.reason;
       expect_sound(corner, *result.plan);
     }
