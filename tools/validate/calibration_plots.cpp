@@ -42,7 +42,7 @@ void add(CurveTable& table, CalibrationMethod method, double x, const Calibratio
 /// Shift on the left, turn on the right; points drawn, lines to first order.
 std::string two_panels(const std::string& title, const std::string& x_label) {
   std::string text = "set multiplot layout 1,2 title \"" + title + "\"\nset xlabel \"" + x_label +
-                     "\"\nset yrange [0:]\nset key top left\n";
+                     "\"\nset yrange [0:]\nset offsets 0, 0, graph 0.3, 0\nset key top left\n";
   for (const bool turn : {false, true}) {
     text += std::string("set ylabel \"") + (turn ? "turn, deg" : "shift, mm") + "\"\nplot ";
     for (const char* method : {"chain", "park"}) {
@@ -81,12 +81,9 @@ std::string over_corner_noise(const Calibrations& all, const std::string& folder
 
 std::string over_poses(const Calibrations& all, const std::string& folder) {
   CurveTable table(kHeader);
-  for (const int poses : {3, 4, 6, 9, 15, 25}) {
-    const auto setup = reachable(all.cell, {.poses = poses});
-    if (!setup) continue;
-    add(table, kPark, poses, all, *setup);
-    add(table, kChain, poses, all, *setup);  // knows nothing of them: a level to compare with
-  }
+  for (const CalibrationMethod method : {kPark, kChain})  // the chain knows nothing of them: a level to compare with
+    for (const int poses : {3, 4, 6, 9, 15, 25})
+      if (const auto setup = reachable(all.cell, {.poses = poses})) add(table, method, poses, all, *setup);
   write_plot(
       folder, "calibration_poses", table,
       "set logscale x 2\n" + two_panels("Camera on the flange: error over the number of looks (the chain has two)",
@@ -100,9 +97,11 @@ std::string over_range(const Calibrations& all, const std::string& folder) {
     if (const auto setup = reachable(all.cell, {.poses = 0, .above = above})) add(table, kChain, above, all, *setup);
   for (const double nearest : {0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6})
     if (const auto setup = reachable(all.cell, {.nearest = nearest})) add(table, kPark, nearest + 0.075, all, *setup);
-  write_plot(folder, "calibration_range", table,
-             two_panels("Camera on the flange: error over range",
-                        "chain: fixed camera over the floor; hand-eye: mean distance of the looks, m"));
+  write_plot(
+      folder, "calibration_range", table,
+      two_panels(
+          "Camera on the flange: error over range (chain: fixed camera over the floor; park: looks from the plate)",
+          "range, m"));
   return "calibration_range";
 }
 
@@ -124,9 +123,10 @@ std::string by_source(const Calibrations& all, const std::string& folder) {
   }
   write_plot(folder, "calibration_sources", table,
              "set multiplot layout 1,2 title \"One source of error at a time: root mean square\"\n"
-             "set style fill solid 0.8\nset xrange [0.5:2.5]\nset yrange [0:]\nset xtics (\"chain\" 1, \"park\" 2)\n"
+             "set style fill solid 0.8\nset xrange [0.5:2.5]\nset yrange [0:]\nset offsets 0, 0, graph 0.3, 0\nset "
+             "xtics (\"chain\" 1, \"park\" 2)\n"
              "set ylabel \"shift of the camera, mm\"\n" +
-                 shifts + "\nset ylabel \"tip at a part, mm\"\n" + tips + "\nunset multiplot\n");
+                 shifts + "\nunset key\nset ylabel \"tip at a part, mm\"\n" + tips + "\nunset multiplot\n");
   return "calibration_sources";
 }
 
