@@ -19,6 +19,16 @@ btScalar radius_of(const btCollisionObject& body) {
   return centre.length() + radius;
 }
 
+/// Has faces only: a contact of a ball, a capsule or a cylinder wanders over its surface as it rolls, and is not
+/// carried.
+bool faceted(const btCollisionShape& shape) {
+  if (!shape.isCompound()) return shape.isPolyhedral();
+  const auto& pieces = static_cast<const btCompoundShape&>(shape);
+  for (int k = 0; k < pieces.getNumChildShapes(); ++k)
+    if (!faceted(*pieces.getChildShape(k))) return false;
+  return true;
+}
+
 /// Bound on the motion of any point of a body of this radius, m.
 btScalar motion(const btTransform& a, const btTransform& b, btScalar radius) {
   btScalar squares = 0;  // |A - B|^2 in Frobenius norm is 8 sin^2(angle / 2)
@@ -50,8 +60,13 @@ bool QuietPairs::quiet(const btBroadphasePair& pair) {
   const auto [entry, fresh] = seen_.try_emplace(key);
   Seen& seen = entry->second;
   // Without an algorithm the pair has just come together again.
-  if (fresh) seen.radius = std::min(radius_of(a), radius_of(b));
-  if (fresh || !pair.m_algorithm || motion(seen.X_01, X_01, seen.radius) > tolerance_) seen = {X_01, seen.radius, 0};
+  if (fresh) {
+    seen.radius = std::min(radius_of(a), radius_of(b));
+    seen.round = !faceted(*a.getCollisionShape()) || !faceted(*b.getCollisionShape());
+  }
+  if (seen.round) return false;
+  if (fresh || !pair.m_algorithm || motion(seen.X_01, X_01, seen.radius) > tolerance_)
+    seen.X_01 = X_01, seen.searches = 0;
   return ++seen.searches > kSearches;
 }
 

@@ -25,6 +25,7 @@ class QuietPairs : public btCollisionDispatcher {
     btTransform X_01;     ///< of the second body in the first, at the last search but those of a pair at rest
     btScalar radius = 0;  ///< m, of the smaller body
     int searches = 0;     ///< since then
+    bool round = false;   ///< one of them has more than faces: always searched
   };
   static void process(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info);
   bool quiet(const btBroadphasePair& pair);

@@ -32,8 +32,8 @@ struct CubeOnSlab {
     world.removeRigidBody(cube.get());
     world.removeRigidBody(slab.get());
   }
-  std::unique_ptr<btRigidBody> add(btBoxShape& shape, double mass, const btVector3& at, int index) {
-    shape.setMargin(2e-4);
+  std::unique_ptr<btRigidBody> add(btConvexInternalShape& shape, double mass, const btVector3& at, int index) {
+    if (shape.isPolyhedral()) shape.setMargin(2e-4);  // a ball's margin is its radius
     btVector3 inertia(0, 0, 0);
     if (mass > 0) shape.calculateLocalInertia(mass, inertia);
     auto body = std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia);
@@ -76,6 +76,17 @@ TEST(QuietPairs, APushedCubeIsSearchedAgainAndDoesNotSinkIn) {
   EXPECT_GT(bench.pairs.searched(), before + 10);  // 20 mm of way and more, 0.05 mm a search
   EXPECT_GT(bench.cube->getWorldTransform().getOrigin().x(), 0.01);
   EXPECT_NEAR(bench.height(), 0.02, 1e-4);
+}
+
+TEST(QuietPairs, ABallAtRestIsSearchedInEveryStep) {
+  CubeOnSlab bench(5e-5);
+  btCapsuleShape shape(0.02, 0);
+  const auto ball = bench.add(shape, 0.2, {0.1, 0, 0.02}, 2);
+  bench.run(500);
+  const long before = bench.pairs.searched();
+  bench.run(100);
+  EXPECT_EQ(bench.pairs.searched(), before + 100);  // the ball's pair with the slab; the cube's is carried
+  bench.world.removeRigidBody(ball.get());
 }
 
 TEST(QuietPairs, ASlabThatIsTakenAwayHoldsNothing) {
