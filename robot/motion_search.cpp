@@ -11,7 +11,8 @@
 namespace binpick {
 namespace {
 
-constexpr int kShares = 4;  // of a look's checks, one for each search: no hopeless one uses up all
+constexpr double kOver = 3.15;  // rad, a little more than a tool that hangs head over
+constexpr int kShares = 4;      // of a look's checks, one for each search: no hopeless one uses up all
 
 }  // namespace
 
@@ -29,7 +30,7 @@ std::optional<Vector6d> MotionPlanner::uprighted(const Vector6d& q, double tilt)
   const Eigen::Vector3d axis = X_WG.linear().col(2).cross(-Eigen::Vector3d::UnitZ());
   if (axis.norm() < 1e-6) return std::nullopt;
   // Not all at the bound: the more it was off, the more it stays off.
-  const double turn = now - tilt * now / 3.15;
+  const double turn = now - tilt * now / kOver;
   const Pose X_upright = pose_from(exp_so3(turn * axis.normalized()) * X_WG.linear(), X_WG.translation());
   return following_solution(*cell_.arm, flange_in_base(X_upright), q);
 }

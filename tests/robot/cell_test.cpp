@@ -15,9 +15,8 @@ namespace {
 using namespace testing_robot;
 
 class EveryCell : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Cells, EveryCell,
-                         testing::Values("mz07_three_cups", "mz07_one_cup", "ur5e", "kr6_r900", "lrmate_200id",
-                                         "tx2_60l", "irb1200_5_90"));
+INSTANTIATE_TEST_SUITE_P(Cells, EveryCell, kCellOfEveryArm);
+INSTANTIATE_TEST_SUITE_P(OneCup, EveryCell, testing::Values("mz07_one_cup"));
 
 TEST_P(EveryCell, IsValidAndSurvivesWritingAndReading) {
   const Cell cell = cell_named(GetParam());

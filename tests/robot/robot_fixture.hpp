@@ -1,6 +1,8 @@
 // Shared by the robot tests: the repository's arm and cells.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 
 #include "core/random.hpp"
@@ -18,6 +20,10 @@ inline Cell cell_named(const std::string& name) {
   cell.finish();
   return cell;
 }
+
+/// A cell of every arm in assets/arms, each with a tool that holds a bearing.
+inline const auto kCellOfEveryArm =
+    testing::Values("mz07_three_cups", "ur5e", "kr6_r900", "lrmate_200id", "tx2_60l", "irb1200_5_90");
 
 inline Vector6d random_joints(const Arm& arm, Rng rng) {
   Vector6d q;

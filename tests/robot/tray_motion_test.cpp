@@ -16,9 +16,7 @@ namespace {
 using namespace testing_robot;
 
 class TiltOf : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Cells, TiltOf,
-                         testing::Values("mz07_three_cups", "kr6_r900", "tx2_60l", "irb1200_5_90", "lrmate_200id",
-                                         "ur5e"));
+INSTANTIATE_TEST_SUITE_P(Cells, TiltOf, kCellOfEveryArm);
 
 TEST_P(TiltOf, TheToolStaysUprightOnTheWay) {
   const PlanningConfig config;
