@@ -109,10 +109,11 @@ TriangleMesh read_mesh(const std::string& path, const MeshReadOptions& options, 
   if (step && !options.unit.empty()) throw AssetError(path + ": STEP files carry their own unit; leave `unit` out");
   TriangleMesh mesh;
   if (step) {
-    mesh = read_step(path, options.chord_tolerance);
+    mesh = read_step(path, options.chord_tolerance / options.scale);
+    scale(mesh, options.scale);
   } else {
     for (const TriangleMesh& object : read_objects(path, extension)) append(mesh, object);
-    scale(mesh, metres);
+    scale(mesh, metres * options.scale);
   }
   const MeshRepairs repairs = repair(mesh, path);
   check_size(mesh, metres, step, path);
@@ -130,7 +131,7 @@ std::vector<TriangleMesh> read_mesh_objects(const std::string& path, const MeshR
   std::vector<TriangleMesh> objects = read_objects(path, extension);
   TriangleMesh all;
   for (TriangleMesh& object : objects) {
-    scale(object, metres);
+    scale(object, metres * options.scale);
     repair(object, path);
     append(all, object);
   }

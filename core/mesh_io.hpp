@@ -13,6 +13,7 @@ namespace binpick {
 struct MeshReadOptions {
   std::string unit;               ///< "mm", "m", "inch", "cm"; empty: mm, or the STEP file's own
   double chord_tolerance = 1e-4;  ///< m, largest distance of a STEP facet from its surface
+  double scale = 1;               ///< of the shape in the file, about its origin
 };
 
 /// What was repaired on the way in (zero-area triangles, duplicate vertices, inside-out orientation), for the log.

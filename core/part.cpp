@@ -103,6 +103,8 @@ void PartSpec::visit(ConfigVisitor& v) {
   v.choice("unit", unit, {"", "mm", "cm", "m", "inch"},
            "length unit of STL, OBJ and PLY; empty: mm (STEP has its own)");
   v.field("chord_tolerance", chord_tolerance, Unit::kLength, "largest distance of a STEP facet from its surface");
+  // What leaves the shape alone is not written, so that older scenes keep their hash.
+  if (v.reading() || scale != 1) v.field("scale", scale, Unit::kNone, "of the shapes in the files, about their origin");
   v.field("density", density, Unit::kDensity, "gives the mass from the envelope's volume");
   v.field("mass", mass, Unit::kMass, "0: from the density; must be stated when the mesh is open");
   v.field("friction", friction, Unit::kNone, "Coulomb coefficient of the part's surface");
@@ -114,6 +116,7 @@ void PartSpec::visit(ConfigVisitor& v) {
 void PartSpec::validate() const {
   if (mesh.empty()) throw SpecError("mesh: a part needs a CAD file");
   require(chord_tolerance >= 1e-6 && chord_tolerance <= 0.01, "chord_tolerance", chord_tolerance, "0.000001 .. 0.01 m");
+  require(scale >= 0.01 && scale <= 100, "scale", scale, "0.01 .. 100");
   require(density >= 1 && density <= 25000, "density", density, "1 .. 25000 kg/m^3");
   require(mass >= 0 && mass <= 1000, "mass", mass, "0 .. 1000 kg");
   require(friction >= 0 && friction <= 2, "friction", friction, "0 .. 2");
@@ -134,7 +137,7 @@ PartSpec read_part_spec(const std::string& path) {
 
 Part load_part(const PartSpec& spec) {
   spec.validate();
-  const MeshReadOptions options{spec.unit, spec.chord_tolerance};
+  const MeshReadOptions options{spec.unit, spec.chord_tolerance, spec.scale};
   Part part;
   part.name = spec.name.empty() ? std::filesystem::path(spec.mesh).stem().string() : spec.name;
   part.mesh_P = read_mesh(spec.mesh, options);

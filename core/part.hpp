@@ -37,6 +37,7 @@ struct PartSpec {
   std::string pieces;              ///< path of an OBJ whose objects are convex pieces, optional
   std::string unit;                ///< of the mesh files; empty: mm
   double chord_tolerance = 1e-4;   ///< m, STEP only
+  double scale = 1;                ///< of the shapes in the files, about their origin
   double density = 2700;           ///< kg/m^3, aluminium
   double mass = 0;                 ///< kg; 0: from volume and density. Needed when the mesh is open.
   double friction = 0.4;

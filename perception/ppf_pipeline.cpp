@@ -196,7 +196,7 @@ void PpfEstimator::judge(const Scene& scene, std::vector<Candidate>& standing) c
       if (trusted[i]) add_explained(c, -1, taken);
       c.evidence = gather_evidence(scene, part.surface, c.fit.X_CP, taken, settings_.check);
       if (trusted[i]) add_explained(c, 1, taken);
-      c.score = calibrated_score(score_features(part.surface, c, part.twists), c.ambiguous);
+      c.score = calibrated_score(score_features(scene, part.surface, c, part.twists), c.ambiguous);
     }
     for (std::size_t i = 0; i < standing.size(); ++i) {
       const Candidate& c = standing[i];
@@ -246,7 +246,7 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
       settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);
   for (const Candidate& c : scored(scene, std::move(standing))) {
     result.estimates.push_back(to_estimate(c, parts_[c.part]));
-    if (features) features->push_back(score_features(parts_[c.part].surface, c, parts_[c.part].twists));
+    if (features) features->push_back(score_features(scene, parts_[c.part].surface, c, parts_[c.part].twists));
   }
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
   if (result.estimates.empty()) result.message = why_nothing(scene, parts_, settings_.preprocess.headroom);

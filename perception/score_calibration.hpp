@@ -14,12 +14,12 @@
 
 namespace binpick {
 
-constexpr std::size_t kScoreFeatures = 19;
+constexpr std::size_t kScoreFeatures = 21;
 using ScoreFeatures = std::array<double, kScoreFeatures>;
 const std::array<std::string, kScoreFeatures>& score_feature_names();
 
 /// `symmetry_twists`: directions of P in which a symmetric part has no pose to be known (translation, rotation).
-ScoreFeatures score_features(const SurfaceModel& model, const Candidate& candidate,
+ScoreFeatures score_features(const Scene& scene, const SurfaceModel& model, const Candidate& candidate,
                              const std::vector<Vector6d>& symmetry_twists);
 
 /// 0 .. 1.

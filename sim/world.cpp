@@ -122,6 +122,7 @@ void World::Impl::advance(double dt, int iterations, double search_motion) {
   BP_CHECK(dt > 0, dt);
   set_engine_globals(config);
   dispatcher->set_tolerance(search_motion);
+  manifolds_known = false;
   if (observer) observer->before_step(dt, iterations);
   world->getSolverInfo().m_numIterations = iterations;
   aim_moved_bodies();

@@ -125,6 +125,7 @@ std::shared_ptr<World::Impl::Geometry> World::Impl::primitive_geometry(std::span
 }
 
 void World::Impl::join_world(Body& body) {
+  manifolds_known = false;
   const bool is_free = body.kind == BodyKind::kFree || body.kind == BodyKind::kLip;
   // Fixed and moved bodies meet free ones only.
   world->addRigidBody(body.rigid.get(), is_free ? btBroadphaseProxy::DefaultFilter : btBroadphaseProxy::StaticFilter,

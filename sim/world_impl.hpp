@@ -74,6 +74,9 @@ struct World::Impl {
   void join_world(Body& body);
   /// `search_motion`: QuietPairs::set_tolerance.
   void advance(double dt, int iterations, double search_motion);
+  /// The manifolds with contacts of a body, in the dispatcher's order. Sorted by body once a step: an arm's nine bodies
+  /// are asked about in every one.
+  const std::vector<const btPersistentManifold*>& manifolds_of(BodyId body);
   void aim_moved_bodies();
   void land_moved_bodies();
 
@@ -101,6 +104,8 @@ struct World::Impl {
   PairFilter filter;
   std::vector<Body> bodies;
   std::map<std::uint64_t, std::shared_ptr<Geometry>> part_geometries;  ///< by content
+  std::vector<std::vector<const btPersistentManifold*>> manifolds;     ///< by body, once asked for
+  bool manifolds_known = false;
 };
 
 }  // namespace binpick

@@ -17,6 +17,23 @@ struct DeepestContact : btCollisionWorld::ContactResultCallback {
   }
 };
 
+constexpr double kContactMargin = 1e-6;  // m
+
+/// Does the box reach one of the body's pieces? A tool between the walls of a bin lies in the bin's own box all the
+/// time.
+bool reaches_a_child(const btCompoundShape& shape, const btTransform& X_WM, const btVector3& low,
+                     const btVector3& high) {
+  for (int k = 0; k < shape.getNumChildShapes(); ++k) {
+    btVector3 child_low, child_high;
+    shape.getChildShape(k)->getAabb(X_WM * shape.getChildTransform(k), child_low, child_high);
+    bool apart = false;
+    for (int i = 0; i < 3; ++i)
+      apart |= low[i] > child_high[i] + kContactMargin || child_low[i] > high[i] + kContactMargin;
+    if (!apart) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void World::move_to(BodyId body, const Pose& X_WO) {
@@ -30,6 +47,7 @@ void World::set_collides(BodyId a, BodyId b, bool collides) {
   const std::pair<int, int> pair{std::min(a, b), std::max(a, b)};
   const bool changed = collides ? impl_->filter.ignored.erase(pair) > 0 : impl_->filter.ignored.insert(pair).second;
   if (!changed) return;
+  impl_->manifolds_known = false;
   // Existing contacts of the pair go away, and the broad phase finds it anew.
   for (const BodyId id : {a, b}) {
     btBroadphaseProxy* proxy = impl_->at(id).rigid->getBroadphaseProxy();
@@ -48,6 +66,7 @@ void World::set_present(BodyId body, bool present) {
   b.present = present;
   if (present) return impl_->join_world(b);
   impl_->world->removeRigidBody(b.rigid.get());
+  impl_->manifolds_known = false;
   if (impl_->observer) impl_->observer->left(b);
 }
 
@@ -134,16 +153,30 @@ double World::deepest_contact() const {
 
 double World::gravity() const { return impl_->config.gravity; }
 
+const std::vector<const btPersistentManifold*>& World::Impl::manifolds_of(BodyId body) {
+  if (!manifolds_known) {
+    manifolds.resize(bodies.size());
+    for (auto& list : manifolds) list.clear();
+    for (int m = 0; m < dispatcher->getNumManifolds(); ++m) {
+      const btPersistentManifold* manifold = dispatcher->getManifoldByIndexInternal(m);
+      if (manifold->getNumContacts() == 0) continue;
+      for (const btCollisionObject* object : {manifold->getBody0(), manifold->getBody1()})
+        manifolds[static_cast<std::size_t>(object->getUserIndex())].push_back(manifold);
+    }
+    manifolds_known = true;
+  }
+  return manifolds[static_cast<std::size_t>(body)];
+}
+
 std::vector<World::BodyContact> World::contacts(BodyId body) const {
   std::map<BodyId, BodyContact> by_other;
-  for (int m = 0; m < impl_->dispatcher->getNumManifolds(); ++m) {
-    const btPersistentManifold& manifold = *impl_->dispatcher->getManifoldByIndexInternal(m);
-    const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
-    if ((a != body && b != body) || manifold.getNumContacts() == 0) continue;
+  impl_->at(body);  // is there one?
+  for (const btPersistentManifold* manifold : impl_->manifolds_of(body)) {
+    const int a = manifold->getBody0()->getUserIndex(), b = manifold->getBody1()->getUserIndex();
     const BodyId other = a == body ? b : a;
     BodyContact& contact = by_other.try_emplace(other, BodyContact{other, 0, 0}).first->second;
-    for (int c = 0; c < manifold.getNumContacts(); ++c) {
-      const btManifoldPoint& point = manifold.getContactPoint(c);
+    for (int c = 0; c < manifold->getNumContacts(); ++c) {
+      const btManifoldPoint& point = manifold->getContactPoint(c);
       contact.depth = std::max(contact.depth, -point.getDistance());
       if (impl_->last_step > 0) contact.force += point.getAppliedImpulse() / impl_->last_step;
     }
@@ -160,8 +193,9 @@ double World::overlap(BodyId a, BodyId b) {
   second.getAabb(min_b, max_b);
   for (int i = 0; i < 3; ++i)
     if (min_a[i] > max_b[i] || min_b[i] > max_a[i]) return 0;
+  if (!reaches_a_child(*impl_->at(b).geometry->compound, second.getWorldTransform(), min_a, max_a)) return 0;
   DeepestContact callback;
-  callback.m_closestDistanceThreshold = 1e-6;  // above 0: the test is made although both sleep
+  callback.m_closestDistanceThreshold = kContactMargin;  // above 0: the test is made although both sleep
   impl_->world->contactPairTest(&first, &second, callback);
   return callback.depth;
 }

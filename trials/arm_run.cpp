@@ -103,7 +103,7 @@ void ArmRun::log_collisions() {
 }
 
 bool ArmRun::collides() {
-  const CellWorld::Touch touch = cell_.arm_contact();
+  const CellWorld::Touch touch = cell_.arm_contact(in_contact_);
   peak_force_ = std::max(peak_force_, touch.force);
   if (touch.force > contacts_.force) contacts_.force = touch.force, contacts_.pushed = touch.pushed;
   if (touch.depth > contacts_.depth) contacts_.depth = touch.depth, contacts_.entered = touch.entered;

@@ -206,14 +206,14 @@ std::vector<std::pair<BodyId, std::string>> CellWorld::moving_bodies() const {
   return bodies;
 }
 
-CellWorld::Touch CellWorld::arm_contact() {
+CellWorld::Touch CellWorld::arm_contact(const std::map<std::string, double>& in_contact) {
   Touch touch;
   for (const auto& [body, name] : moving_bodies()) {
     double force = 0;
     for (const World::BodyContact& contact : world_.contacts(body)) force += contact.force;
     if (force > touch.force) touch.force = force, touch.pushed = name + " on a part";
   }
-  for (const auto& [name, depth] : cell_contacts())
+  for (const auto& [name, depth] : in_contact)
     if (depth > touch.depth && name.rfind("lip", 0) != 0) touch.depth = depth, touch.entered = name;
   return touch;
 }

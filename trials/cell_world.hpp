@@ -67,10 +67,10 @@ class CellWorld {
     double depth = 0;  ///< m, of arm or tool in bin, tray or table
     std::string pushed, entered;
   };
-  Touch arm_contact();
   /// Arm, tool (with the camera it carries) and lips in contact with bin, tray or table now, by name ("tool in the
   /// bin", "lip on the table"), and how deep (m; of a lip as it is pressed in).
   std::map<std::string, double> cell_contacts();
+  Touch arm_contact(const std::map<std::string, double>& cell_contacts);
 
   BodyId bin_body = -1, table_body = -1, tray_body = -1, tool_body = -1;
   std::vector<BodyId> link_bodies;  ///< -1 for a link without shape

@@ -283,7 +283,23 @@ TEST_F(PartFile, DefaultsAreEnough) {
   EXPECT_LT((part.box_center_P - Eigen::Vector3d(0.01, 0.02, 0.03)).norm(), 1e-8);
 }
 
+TEST_F(PartFile, AnotherScaleIsTheSameShape) {
+  const Part whole = load("mesh: block.stl\n"), half = load("mesh: block.stl\nscale: 0.5\n");
+  EXPECT_NEAR(half.diameter, whole.diameter / 2, 1e-9);
+  EXPECT_NEAR(half.mass.mass, whole.mass.mass / 8, 1e-9);
+  EXPECT_LT((half.box_center_P - whole.box_center_P / 2).norm(), 1e-9) << "about the file's origin";
+  PartSpec spec = read_part_spec(folder_.put("whole.yaml", "mesh: block.stl\n"));
+  EXPECT_EQ(write_yaml([&](ConfigVisitor& v) { spec.visit(v); }).find("scale"), std::string::npos)
+      << "scenes without it keep their hash";
+}
+
 #ifdef BINPICK_WITH_STEP
+TEST_F(PartFile, HoldsTheChordAtItsOwnScale) {
+  folder_.put("tee.step", samples::step());
+  const Part part = load("mesh: tee.step\nscale: 2\ndensity: 7860\n");
+  EXPECT_NEAR(part.mass.mass, 8 * 33280e-9 * 7860, 1e-8);
+}
+
 TEST_F(PartFile, MayBeAStepFile) {
   folder_.put("tee.step", samples::step());
   const Part part = load("mesh: tee.step\nchord_tolerance: 0.2 mm\ndensity: 7860\n");
@@ -322,7 +338,7 @@ TEST_F(PartFile, ContentHashFollowsEveryValue) {
   std::set<std::uint64_t> hashes = {load(base).content_hash};
   EXPECT_EQ(load("name: a\nmesh: same.stl\n").content_hash, *hashes.begin()) << "the path is no value";
   for (const std::string more :
-       {"density: 2701\n", "mass: 0.5\n", "friction: 0.41\n", "restitution: 0.2\n", "unit: cm\n",
+       {"density: 2701\n", "mass: 0.5\n", "friction: 0.41\n", "restitution: 0.2\n", "unit: cm\n", "scale: 0.5\n",
         "symmetry: {type: cyclic, order: 2}\n", "symmetry: {type: cyclic, order: 3}\n",
         "symmetry: {type: revolution}\n", "symmetry: {type: revolution, flip: true}\n",
         "symmetry: {type: revolution, axis: [1, 0, 0]}\n", "envelope: other.stl\n"}) {
@@ -354,6 +370,9 @@ TEST_F(PartFile, BadPartsAreRefusedInOneLine) {
       {"mesh: [block.stl]\n", "mesh"},
       {"mesh: block.stl\nunit: furlong\n", "unit"},
       {"mesh: block.stl\nunit: m\n", "`unit: mm`"},
+      {"mesh: block.stl\nscale: 0\n", "scale"},
+      {"mesh: block.stl\nscale: -1\n", "scale"},
+      {"mesh: block.stl\nscale: 50\n", "lies outside 1 mm .. 2000 mm"},
       {"mesh: block.stl\ndensity: -1\n", "density"},
       {"mesh: block.stl\ndensity: .nan\n", "density"},
       {"mesh: block.stl\ndensity: 2,7\n", "density"},

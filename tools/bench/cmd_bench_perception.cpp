@@ -101,6 +101,8 @@ void add_options(CLI::App& command, Options& o) {
                   "parts whose shipped scenes are looked at; default: the six of the project but the tee")
       ->delimiter(',');
   command.add_option("--scene-files", o.bench.scenes, "scene files, beside or in place of --parts");
+  command.add_option("--part-scale", o.bench.part_scale, "every part this much larger, in the heaps and sought")
+      ->check(CLI::Range(0.01, 100.0));
   command.add_option("--scenes-folder", o.scenes_folder, "where --parts finds <part>_bin.yaml; default scenes");
   command.add_option("--scenes", o.scenes, "heaps of each, seeds from 100")->check(CLI::Range(1, 100000));
   command.add_option("--seeds", o.seeds, "A:B, heaps of the seeds A .. B-1 instead");
@@ -134,8 +136,11 @@ void add_troubles(CLI::App& command, Options& o) {
   command.add_flag("--as-cloud", trouble.as_cloud, "points in random order in place of the depth image");
   command.add_flag("--no-parts", trouble.no_parts, "the bins are empty: every estimate is wrong");
   command.add_option("--other-part", o.other_part, "part.yaml that is looked for instead: every estimate is wrong");
-  command.add_flag("--wrong", o.wrong,
-                   "every part looked for in the heaps of every other, as Markdown; default: all seven");
+  CLI::Option* wrong = command.add_flag(
+      "--wrong", o.wrong, "every part looked for in the heaps of every other, as Markdown; default: all seven");
+  command.add_option("--sought-scale", o.bench.sought_scale, "with --wrong: what is looked for this much larger")
+      ->check(CLI::Range(0.01, 100.0))
+      ->needs(wrong);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "core/error.hpp"
+#include "core/quantity.hpp"
 #include "perception/view_ambiguity.hpp"
 #include "tools/bench/perception_heaps.hpp"
 
@@ -30,7 +31,7 @@ struct Clock {
 class SceneBench {
  public:
   SceneBench(const PerceptionBenchConfig& config, const std::string& file, const std::string& sensor)
-      : config_(config), sensor_(sensor), scenario_(read_scenario(file, {sensor})) {
+      : config_(config), sensor_(sensor), scenario_(scaled_scenario(file, sensor, config.part_scale)) {
     scenario_.estimator = nullptr;  // the contenders bring their own
     scenario_.estimator_type = "oracle";
     context_ = make_trial_context(scenario_);
@@ -174,6 +175,17 @@ std::string full_sensor_name(const std::string& text) {
   for (const SensorEntry& entry : sensor_registry())
     if (holds(entry.make()->presets(), text)) return entry.name + ":" + text;
   throw SpecError("--sensor " + text + ": neither a sensor nor a preset; `binpick list sensor_presets` names them");
+}
+
+Scenario scaled_scenario(const std::string& file, const std::string& sensor, double part_scale) {
+  Scenario scenario = read_scenario(file, {sensor});
+  if (part_scale == 1) return scenario;
+  for (PartEntry& entry : scenario.parts) {
+    entry.spec.scale *= part_scale;
+    entry.spec.name += " x " + format_double(part_scale);
+    entry.spec.validate();
+  }
+  return scenario;
 }
 
 std::vector<PerceptionRow> bench_perception(const PerceptionBenchConfig& config, ProgressSink& progress) {

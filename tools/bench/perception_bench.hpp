@@ -21,6 +21,8 @@ struct PerceptionBenchConfig {
   bool ask_first = true;  ///< also for one pickable pose only
   int peer_scenes = 3;    ///< heaps that peers are asked about, the first ones: they take seconds each
   ViewTrouble trouble;
+  double part_scale = 1;    ///< of every part, its heap and what is looked for
+  double sought_scale = 1;  ///< of the parts that are looked for in the heaps of others, beside part_scale
   std::string cache;        ///< folder of heaps at rest; empty: none
   bool features = false;    ///< keep what the scores are made of
   bool heaps_only = false;  ///< drop and keep the heaps, look at nothing
@@ -54,6 +56,9 @@ struct PerceptionRow {
   std::vector<LookTimes> times;          ///< the same; of the whole result, all kinds of parts together
   std::size_t left_out = 0;              ///< heaps that were not at rest inside the bin
 };
+
+/// The scene with parts of another size, whose names say so.
+Scenario scaled_scenario(const std::string& file, const std::string& sensor, double part_scale);
 
 std::vector<PerceptionRow> bench_perception(const PerceptionBenchConfig& config, ProgressSink& progress);
 

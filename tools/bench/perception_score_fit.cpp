@@ -55,13 +55,16 @@ double error_of(const ScoreFeatures& weights, std::span<const ScoreSample> sampl
   return calibration_error(reliability(scored, 10));
 }
 
+/// The part's name without the size that --part-scale added: sizes of one shape are left out together.
+std::string shape_of(const std::string& part) { return part.substr(0, part.find(" x ")); }
+
 std::string left_out(std::span<const ScoreSample> samples, double ridge, double wrong_weight) {
   std::set<std::string> parts;
-  for (const ScoreSample& s : samples) parts.insert(s.part);
+  for (const ScoreSample& s : samples) parts.insert(shape_of(s.part));
   std::string text;
   for (const std::string& part : parts) {
     std::vector<ScoreSample> rest, out;
-    for (const ScoreSample& s : samples) (s.part == part ? out : rest).push_back(s);
+    for (const ScoreSample& s : samples) (shape_of(s.part) == part ? out : rest).push_back(s);
     if (rest.empty()) continue;
     const ScoreFeatures weights = fit_weights(rest, ridge, wrong_weight);
     char line[160];
@@ -184,7 +187,7 @@ std::string fit_report(std::span<const ScoreSample> all, double ridge, double wr
                   100.0 * static_cast<double>(t.kept_right) / static_cast<double>(std::max<std::size_t>(1, t.right)));
     out << line;
   }
-  out << "one part left out, then judged:\n" << left_out(samples, ridge, wrong_weight);
+  out << "one shape left out, then judged:\n" << left_out(samples, ridge, wrong_weight);
   return out.str();
 }
 

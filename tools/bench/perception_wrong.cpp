@@ -63,7 +63,7 @@ std::string table_of_sensor(std::span<const PerceptionRow> rows, const std::stri
 std::vector<PerceptionRow> bench_wrong_parts(const PerceptionBenchConfig& config, ProgressSink& progress) {
   std::vector<PerceptionRow> rows;
   for (const std::string& sought : config.scenes) {
-    const Scenario scenario = read_scenario(sought, {});
+    const Scenario scenario = scaled_scenario(sought, {}, config.part_scale * config.sought_scale);
     if (scenario.parts.size() != 1) throw SpecError(sought + ": --wrong wants scenes with one kind of part");
     PerceptionBenchConfig one = config;
     one.trouble.other_part = scenario.parts[0].spec;
