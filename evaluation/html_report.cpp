@@ -160,11 +160,20 @@ std::string failure_row(const TrialRecord& record, std::size_t index, bool pictu
          "<td><code>binpick trial scenario.yaml --seed " + seed + "</code></td></tr>";
 }
 
+std::string failed_trial_row(const TrialRecord& record) {
+  const std::string seed = std::to_string(record.seed.key);
+  return "<tr>" + cell(seed, "n") + cell("-", "n") + cell(to_string(*failure_of(record))) + cell(record.error) +
+         "<td><code>binpick trial scenario.yaml --seed " + seed + "</code></td></tr>";
+}
+
 std::string failure_list(std::span<const TrialRecord> records, const Pictures& pictures) {
   std::string rows =
       head({{"seed", "n"}, {"pick", "n"}, {"outcome", ""}, {"reason", ""}, {"again, in the run folder", ""}});
   std::size_t count = 0;
+  for (const TrialRecord& record : records)
+    if (failure_of(record) && ++count <= kFailuresShown) rows += failed_trial_row(record);
   for (const TrialRecord& record : records) {
+    if (failure_of(record)) continue;
     for (std::size_t i = 0; i < record.picks.size(); ++i) {
       const PickOutcome outcome = record.picks[i].outcome;
       if (outcome == PickOutcome::kSucceeded || outcome == PickOutcome::kBinEmpty) continue;

@@ -15,6 +15,7 @@
 #include "core/hash.hpp"
 #include "core/pick_outcome.hpp"
 #include "core/pose.hpp"
+#include "evaluation/trial_failure.hpp"
 
 namespace binpick {
 
@@ -30,14 +31,21 @@ class JsonWriter {
   }
   template <class T>
   void operator()(const char* key, const std::optional<T>& value) {
-    json[key] = value ? OrderedJson(*value) : OrderedJson(nullptr);
+    json[key] = nullptr;
+    if (value) (*this)(key, *value);
   }
   /// No key when there is no value.
   template <class T>
   void if_any(const char* key, const std::optional<T>& value) {
     if (value) (*this)(key, *value);
   }
+  /// No key for the usual value.
+  template <class T>
+  void unless(const char* key, const T& value, const T& usual) {
+    if (value != usual) (*this)(key, value);
+  }
   void operator()(const char* key, PickOutcome value) { json[key] = to_string(value); }
+  void operator()(const char* key, TrialFailure value) { json[key] = to_string(value); }
   void operator()(const char* key, const Eigen::Vector3d& value) { json[key] = {value.x(), value.y(), value.z()}; }
   void operator()(const char* key, const std::map<std::string, int>& value) {
     OrderedJson& object = json[key] = OrderedJson::object();
@@ -105,15 +113,13 @@ class JsonReader {
     value.reset();
     if (json_.contains(key)) (*this)(key, value.emplace());
   }
-  void operator()(const char* key, PickOutcome& value) {
-    std::string text;
-    (*this)(key, text);
-    try {
-      value = pick_outcome_from(text);
-    } catch (const SpecError& error) {
-      fail(key, error.what());
-    }
+  template <class T>
+  void unless(const char* key, T& value, const T& usual) {
+    value = usual;
+    if (json_.contains(key)) (*this)(key, value);
   }
+  void operator()(const char* key, PickOutcome& value) { named(key, value, pick_outcome_from); }
+  void operator()(const char* key, TrialFailure& value) { named(key, value, trial_failure_from); }
   void operator()(const char* key, Eigen::Vector3d& value) {
     const nlohmann::json& found =
         need(at(key).is_array() && at(key).size() == 3, key, "is not a list of three numbers", at(key));
@@ -171,6 +177,16 @@ class JsonReader {
   }
 
  private:
+  template <class T>
+  void named(const char* key, T& value, T (*from)(const std::string&)) {
+    std::string text;
+    (*this)(key, text);
+    try {
+      value = from(text);
+    } catch (const SpecError& error) {
+      fail(key, error.what());
+    }
+  }
   const nlohmann::json& need(bool condition, const char* key, const char* message, const nlohmann::json& value) const {
     if (!condition) fail(key, message);
     return value;

@@ -70,9 +70,8 @@ PileFigures figures_of(const TrialRecord& record) {
   pile.cleared = {static_cast<double>(record.placed), static_cast<double>(record.dropped)};
   pile.recall_first_look = count_first_look(record);
   if (!record.picks.empty()) pile.first_pick = to_string(record.picks.front().outcome);
-  pile.crashed = !record.error.empty();
+  pile.crashed = failure_of(record).has_value();
   for (const PickRecord& pick : record.picks) {
-    pile.crashed = pile.crashed || pick.outcome == PickOutcome::kInternalError;
     pile.turns.push_back({pick.frame_hash, pick.estimates_hash, pick.world_hash});
     add(pile.recall, count(pick.check.found, pick.check.visible));
     add(pile.precision, count(pick.check.right, pick.check.counted));

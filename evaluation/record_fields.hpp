@@ -83,8 +83,19 @@ void trial_fields(Archive& archive, Record& record) {
   archive.if_any("calibration_translation", record.calibration_translation);
   archive.if_any("calibration_rotation", record.calibration_rotation);
   archive.hash("drop_hash", record.drop_hash);
+  archive.if_any("failure", record.failure);
   archive("error", record.error);
   archive.list("picks", record.picks, [](auto& inner, auto& pick) { pick_fields(inner, pick); });
+}
+
+constexpr const char* kSumKey = ",\"sum\":\"";  // the last key of a line: of all bytes before it
+
+/// Who ran it and how often: outside the hash. No key where there is nothing to say.
+template <class Archive, class Record>
+void run_fields(Archive& archive, Record& record) {
+  archive.unless("build", record.build, std::string());
+  archive.unless("attempts", record.attempts, 1);
+  archive.unless("first_failure", record.first_failure, std::string());
 }
 
 /// Wall times: outside the hash. The list is as long as `picks`.

@@ -62,6 +62,11 @@ std::string seed_list(const std::vector<std::uint64_t>& seeds) {
   return seeds.size() > kShown ? list + ", and " + std::to_string(seeds.size() - kShown) + " more" : list;
 }
 
+std::vector<Row> with_head(const Row& head, std::vector<Row> rows) {
+  rows.insert(rows.begin(), head);
+  return rows;
+}
+
 /// Outcomes that occurred, in the order of the enum, with the seeds that replay them.
 std::vector<Row> outcome_rows(const CampaignSummary& s) {
   std::vector<Row> rows;
@@ -75,9 +80,26 @@ std::vector<Row> outcome_rows(const CampaignSummary& s) {
   return rows;
 }
 
-std::vector<Row> with_head(const Row& head, std::vector<Row> rows) {
-  rows.insert(rows.begin(), head);
+/// Trials that are no measurement, and those that took a second attempt; empty: there are none.
+std::vector<Row> failure_rows(const CampaignSummary& s) {
+  std::vector<Row> rows;
+  for (const TrialFailure failure : all_trial_failures()) {
+    const auto seeds = s.failure_seeds.find(to_string(failure));
+    if (seeds == s.failure_seeds.end()) continue;
+    rows.push_back({seeds->first, std::to_string(seeds->second.size()), meaning(failure), seed_list(seeds->second)});
+  }
+  if (!s.repeated_seeds.empty())
+    rows.push_back({"second attempt", std::to_string(s.repeated_seeds.size()), "a worker died over them first",
+                    seed_list(s.repeated_seeds)});
   return rows;
+}
+
+std::string failure_section(const CampaignSummary& s, bool markdown) {
+  const std::vector<Row> rows = failure_rows(s);
+  const Row head = {"trials that failed: no measurements", "trials", "", "seeds"};
+  if (rows.empty()) return "";
+  return markdown ? "## Trials that failed\n\nThey are in none of the figures above.\n\n" + markdown_table(head, rows)
+                  : plain_table(with_head(head, rows)) + "\n";
 }
 
 std::string heap_line(const CampaignSummary& s) {
@@ -101,8 +123,9 @@ std::string terminal_table(const CampaignSummary& s) {
          plain_table(with_head({"", "count", "rate", "95 %", "paper"}, rate_rows(s))) + "\n" +
          plain_table(with_head({"right poses: " + std::to_string(s.measured), "ours", "paper"}, error_rows(s))) + "\n" +
          plain_table(with_head({"stage, ms", "mean", "median", "p95", "paper"}, stage_rows(s))) + "\n" +
-         plain_table(with_head({"outcome", "picks", "", "seeds"}, outcome_rows(s))) + "\n  " + heap_line(s) + "\n  " +
-         text::collision_line(s) + "\n  " + cycle_line(s) + "\n  records " + s.records_hash + "\n";
+         plain_table(with_head({"outcome", "picks", "", "seeds"}, outcome_rows(s))) + "\n" + failure_section(s, false) +
+         "  " + heap_line(s) + "\n  " + text::collision_line(s) + "\n  " + cycle_line(s) + "\n  records " +
+         s.records_hash + "\n";
 }
 
 std::string markdown_report(const CampaignSummary& s) {
@@ -119,7 +142,7 @@ std::string markdown_report(const CampaignSummary& s) {
       "Vision and planning are wall times on this machine, robot motion is simulated time.\n\n" +
       text::markdown(cycle_line(s)) + "; " + text::markdown(heap_line(s)) + "; " +
       text::markdown(text::collision_line(s)) + ".\n\n## Outcomes\n\n" +
-      markdown_table({"outcome", "picks", "meaning", "seeds"}, outcome_rows(s)) +
+      markdown_table({"outcome", "picks", "meaning", "seeds"}, outcome_rows(s)) + failure_section(s, true) +
       "Any seed again: `binpick trial scenario.yaml --seed N` in the run folder.\n\n"
       "## The paper's own slips\n\n";
   for (const char* slip : paper::kSlips) report += std::string("- ") + slip + "\n";

@@ -152,6 +152,16 @@ void add_outcomes(const Records& records, CampaignSummary& summary) {
   }
 }
 
+void add_failures(const Records& records, CampaignSummary& summary) {
+  for (const TrialRecord* record : records) {
+    if (record->attempts > 1) summary.repeated_seeds.push_back(record->seed.key);
+    const std::optional<TrialFailure> failure = failure_of(*record);
+    if (!failure) continue;
+    summary.failure_seeds[to_string(*failure)].push_back(record->seed.key);
+    ++summary.failed;
+  }
+}
+
 /// Over (seed, hash) in the order of the seeds: independent of the files and workers that the records come from.
 std::string records_hash(const Records& sorted) {
   Hasher hasher;
@@ -199,10 +209,15 @@ CollisionSummary collision_summary(const Records& records) {
 }  // namespace
 
 CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_wall_seconds) {
-  const Records sorted = sorted_by_seed(records);
+  const Records all = sorted_by_seed(records);
   CampaignSummary summary;
-  summary.scenario = sorted.empty() ? "" : sorted.front()->scenario;
-  summary.trials = sorted.size();
+  summary.scenario = all.empty() ? "" : all.front()->scenario;
+  summary.trials = all.size();
+  summary.records_hash = records_hash(all);
+  add_failures(all, summary);
+  Records sorted;  // what is a measurement
+  for (const TrialRecord* record : all)
+    if (!failure_of(*record)) sorted.push_back(record);
   add_rates(sorted, summary);
   add_errors(sorted, summary);
   add_stages(sorted, summary);
@@ -210,7 +225,6 @@ CampaignSummary summarise(std::span<const TrialRecord> records, double campaign_
   add_outcomes(sorted, summary);
   summary.heaps = heap_summary(sorted);
   summary.collisions = collision_summary(sorted);
-  summary.records_hash = records_hash(sorted);
   return summary;
 }
 

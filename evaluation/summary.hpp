@@ -49,7 +49,10 @@ struct CollisionSummary {
 struct CampaignSummary {
   std::string scenario;
   std::size_t trials = 0;
-  Rate cleared;                   ///< parts at rest in the tray / dropped
+  std::size_t failed = 0;  ///< of them, those that are no measurement: in no rate below
+  std::map<std::string, std::vector<std::uint64_t>> failure_seeds;  ///< by the failure's name
+  std::vector<std::uint64_t> repeated_seeds;                        ///< of trials that took a second attempt
+  Rate cleared;                                                     ///< parts at rest in the tray / dropped
   Rate picks;                     ///< succeeded / attempted: every pick record but BinEmpty, whatever ended it
   Rate recall;                    ///< found / visible >= 0.5, over every look
   Rate precision;                 ///< right / counted

@@ -77,6 +77,10 @@ std::string summary_json(const CampaignSummary& s) {
   json["outcomes"] = outcomes_json(s.outcomes);
   json["outcome_seeds"] = Json::object();
   for (const auto& [outcome, seeds] : s.outcome_seeds) json["outcome_seeds"][outcome] = seeds;
+  json["failed"] = s.failed;
+  json["failure_seeds"] = Json::object();
+  for (const auto& [failure, seeds] : s.failure_seeds) json["failure_seeds"][failure] = seeds;
+  json["repeated_seeds"] = s.repeated_seeds;
   json["records_hash"] = s.records_hash;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

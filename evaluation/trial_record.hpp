@@ -12,6 +12,7 @@
 #include "core/pose_estimate.hpp"
 #include "core/random.hpp"
 #include "evaluation/matching.hpp"
+#include "evaluation/trial_failure.hpp"
 
 namespace binpick {
 
@@ -70,11 +71,21 @@ struct TrialRecord {
   std::optional<Eigen::Vector3d> calibration_translation, calibration_rotation;
   std::uint64_t drop_hash = 0;
   std::vector<PickRecord> picks;
-  std::string error;      ///< text of an InternalError
-  double wall_total = 0;  ///< s, outside the hash
+  std::optional<TrialFailure> failure;  ///< no key in the line: it is a measurement
+  std::string error;                    ///< what the failure says
+  std::string build;                    ///< hash of the program, outside the record's hash; empty: not known
+  int attempts = 1;                     ///< outside the hash; 2: a worker died over it first
+  std::string first_failure;            ///< outside the hash: how
+  double wall_total = 0;                ///< s, outside the hash
 };
 
-/// Canonical JSON, one line without the newline: {"schema":..,...,"hash":"..","wall":{..}}. Doubles read back exactly.
+/// Why the trial is no measurement; none: it is one.
+std::optional<TrialFailure> failure_of(const TrialRecord& record);
+
+/// The hashed part alone, as a JSON line without the newline: byte-equal for the same build, scenario and seed.
+std::string canonical_line(const TrialRecord& record);
+/// One line without the newline: {"schema":..,...,"hash":"..","build":"..","wall":{..},"sum":".."}. `sum` is of every
+/// byte before it, so that a damaged line is told. Doubles read back exactly.
 std::string to_json_line(const TrialRecord& record);
 /// Throws SpecError naming `place` (file:line).
 TrialRecord trial_record_from_json(const std::string& line, const std::string& place);

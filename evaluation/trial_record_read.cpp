@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/hash.hpp"
 #include "evaluation/json_archive.hpp"
 #include "evaluation/record_fields.hpp"
 #include "evaluation/trial_record.hpp"
@@ -31,6 +32,14 @@ void read_lines(const std::filesystem::path& path, std::vector<TrialRecord>& rec
   }
 }
 
+void check_sum(const std::string& line, JsonReader& reader) {
+  std::uint64_t sum = 0;
+  reader.hash("sum", sum);
+  const std::size_t at = line.rfind(record::kSumKey);
+  if (at == std::string::npos || Hasher().bytes(line.data(), at).value() != sum)
+    reader.fail("sum", "does not fit the line: the record was altered or damaged");
+}
+
 }  // namespace
 
 TrialRecord trial_record_from_json(const std::string& line, const std::string& place) {
@@ -46,12 +55,16 @@ TrialRecord trial_record_from_json(const std::string& line, const std::string& p
   std::uint64_t hash = 0;
   reader.hash("hash", hash);
   const std::size_t picks = record.picks.size();
+  if (hash != record_hash(record)) reader.fail("hash", "does not fit the values: the record was altered or damaged");
+  record::run_fields(reader, record);
   JsonReader wall(reader.at("wall"), place + ": wall.");
   record::wall_fields(wall, record);
   wall.finish();
+  const bool summed = json.contains("sum");  // lines of older versions are not
+  if (summed) reader.at("sum");
   reader.finish();
   if (record.picks.size() != picks) wall.fail("picks", "is not as long as the list of picks");
-  if (hash != record_hash(record)) reader.fail("hash", "does not fit the values: the record was altered or damaged");
+  if (summed) check_sum(line, reader);
   return record;
 }
 

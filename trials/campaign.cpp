@@ -12,12 +12,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/log.hpp"
 #include "evaluation/report.hpp"
+#include "trials/campaign_worker.hpp"
 #include "trials/environment.hpp"
-#include "trials/process.hpp"
+#include "trials/run_store.hpp"
 #include "trials/scenario.hpp"
 
 namespace binpick {
@@ -26,7 +29,7 @@ namespace {
 std::atomic<int> interrupts{0};
 void on_interrupt(int) { ++interrupts; }
 
-// SIGINT finishes what is in flight; a second one falls through to the default and ends the program.
+// SIGINT and SIGTERM finish what is in flight; a second one falls through to the default and ends the program.
 class InterruptGuard {
  public:
   InterruptGuard() {
@@ -34,118 +37,132 @@ class InterruptGuard {
     struct sigaction action {};
     action.sa_handler = on_interrupt;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &action, &before_);
+    ::sigaction(SIGINT, &action, &before_int_);
+    ::sigaction(SIGTERM, &action, &before_term_);
     ::signal(SIGPIPE, SIG_IGN);  // a dead worker shows as a failed write
   }
-  ~InterruptGuard() { ::sigaction(SIGINT, &before_, nullptr); }
+  ~InterruptGuard() {
+    ::sigaction(SIGINT, &before_int_, nullptr);
+    ::sigaction(SIGTERM, &before_term_, nullptr);
+  }
 
  private:
-  struct sigaction before_ {};
+  struct sigaction before_int_ {
+  }, before_term_{};
 };
 
-struct Worker {
-  std::unique_ptr<ChildProcess> process;
-  std::optional<std::uint64_t> seed;  // in flight
-  bool ready = false;
-};
+constexpr int kStarts = 3;  // of workers that died before they were ready, in a row: then the campaign gives up
 
 class Coordinator {
  public:
   Coordinator(const CampaignOptions& options, const std::string& program, ProgressSink& progress)
-      : options_(options), program_(program), progress_(progress) {}
+      : options_(options),
+        program_(program),
+        progress_(progress),
+        scenario_(read_scenario(options.scene, options.overrides)),
+        hash_(scenario_hash(scenario_)),
+        store_(options.out, hash_, build_id()) {}
 
   CampaignResult run() {
-    const Scenario scenario = read_scenario(options_.scene, options_.overrides);
-    hash_ = scenario_hash(scenario);
-    name_ = scenario.name;
-    load_existing();
+    const std::set<std::uint64_t> done = store_.recorded();
+    for (std::uint64_t seed = options_.first_seed; seed < options_.end_seed; ++seed)
+      if (!done.count(seed)) pending_.push_back({seed, 1, ""});
     total_ = pending_.size();
     const auto start = std::chrono::steady_clock::now();
-    if (!pending_.empty()) work(scenario);
+    if (!pending_.empty()) work();
     if (result_.worker_exit != 0) return result_;
     progress_.finish();
-    sort_records();
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    result_.wall = wall.count();
     result_.summary = write_reports(options_.out, wall.count());
     result_.interrupted = interrupts > 0;
     return result_;
   }
 
  private:
-  std::string records_path() const { return options_.out + "/records/records.jsonl"; }
+  using Slot = std::unique_ptr<CampaignWorker>;
 
-  void load_existing() {
-    std::set<std::uint64_t> done;
-    if (std::filesystem::exists(options_.out + "/records"))
-      for (const TrialRecord& record : read_records(options_.out)) {
-        if (record.scenario_hash != hash_)
-          throw SpecError(options_.out + ": holds records of another scenario (" + record.scenario_hash + ", not " +
-                          hash_ + "): choose another --out");
-        done.insert(record.seed.key);
-      }
-    for (std::uint64_t seed = options_.first_seed; seed < options_.end_seed; ++seed)
-      if (!done.count(seed)) pending_.push_back(seed);
-  }
-
-  void start(Worker& worker) {
+  Slot started() const {
     std::vector<std::string> arguments = {program_, "worker", options_.scene};
-    if (!options_.overrides.sensor.empty()) arguments.insert(arguments.end(), {"--sensor", options_.overrides.sensor});
-    if (options_.pictured >= 0)
-      arguments.insert(arguments.end(),
-                       {"--artifacts", options_.out + "/artifacts", "--pictured", std::to_string(options_.pictured)});
-    worker = Worker{std::make_unique<ChildProcess>(arguments), std::nullopt, false};
+    const auto add = [&](const std::string& key, const std::string& value) {
+      arguments.insert(arguments.end(), {key, value});
+    };
+    if (!options_.overrides.sensor.empty()) add("--sensor", options_.overrides.sensor);
+    if (options_.pictured >= 0) {
+      add("--artifacts", options_.out + "/artifacts");
+      add("--pictured", std::to_string(options_.pictured));
+    }
+    if (!options_.plant.empty()) add("--plant", options_.plant);
+    return std::make_unique<CampaignWorker>(arguments, options_.limits);
   }
 
-  void work(const Scenario& scenario) {
+  void work() {
     const InterruptGuard guard;
-    std::vector<Worker> workers(std::min<std::size_t>(static_cast<std::size_t>(options_.workers), pending_.size()));
-    start(workers[0]);  // the others follow when it has loaded the scene, so that a bad asset is told once
+    slots_.resize(std::min<std::size_t>(static_cast<std::size_t>(options_.workers), pending_.size()));
+    slots_[0] = started();  // the others follow when it has loaded the scene, so that a bad asset is told once
     while (result_.worker_exit == 0) {
       std::vector<pollfd> watched;
-      std::vector<Worker*> owners;
-      for (Worker& worker : workers)
-        if (worker.process) {
-          watched.push_back({worker.process->output(), POLLIN, 0});
-          owners.push_back(&worker);
+      std::vector<Slot*> owners;
+      for (Slot& slot : slots_)
+        if (slot) {
+          slot->watch();
+          watched.push_back({slot->output(), POLLIN, 0});
+          owners.push_back(&slot);
         }
       if (watched.empty()) break;
-      if (::poll(watched.data(), watched.size(), 500) < 0 && errno != EINTR) throw StorageError("poll failed");
+      if (::poll(watched.data(), watched.size(), 200) < 0 && errno != EINTR) throw StorageError("poll failed");
       for (std::size_t i = 0; i < watched.size(); ++i)
-        if (watched[i].revents != 0) serve(*owners[i], scenario);
+        if (watched[i].revents != 0) serve(*owners[i]);
       if (folder_made_ && !all_started_) {
-        for (std::size_t i = 1; i < workers.size(); ++i) start(workers[i]);
+        for (std::size_t i = 1; i < slots_.size(); ++i) slots_[i] = started();
         all_started_ = true;
       }
     }
   }
 
-  void serve(Worker& worker, const Scenario& scenario) {
-    const bool open = worker.process->receive();
-    while (const std::optional<std::string> line = worker.process->next_line()) {
-      worker.ready ? take_record(worker, *line) : take_ready(worker, *line, scenario);
-      feed(worker);
+  void serve(Slot& slot) {
+    const bool open = slot->receive();
+    while (const std::optional<std::string> line = slot->next_line()) {
+      if (!slot->ready())
+        take_ready(*slot, *line);
+      else if (!take_record(*slot, *line))
+        return slot->reject();
+      feed(*slot);
     }
-    if (!open) bury(worker);
+    if (!open) bury(slot);
   }
 
-  void take_ready(Worker& worker, const std::string& line, const Scenario& scenario) {
-    worker.ready = true;
+  void take_ready(CampaignWorker& worker, const std::string& line) {
+    worker.set_ready();
+    failed_starts_ = 0;
     if (folder_made_) return;
     folder_made_ = true;
-    make_folder(options_.out + "/records");
-    write_file(options_.out + "/scenario.yaml", expanded_yaml(scenario, options_.out));
+    store_.begin();
+    write_file(options_.out + "/scenario.yaml", expanded_yaml(scenario_, options_.out));
     write_file(options_.out + "/environment.json", environment_json(nlohmann::json::parse(line).value("renderer", "")));
   }
 
-  void take_record(Worker& worker, const std::string& line) {
-    const TrialRecord record = trial_record_from_json(line, "worker");
-    append_file(records_path(), line + "\n");
-    worker.seed.reset();
-    count(record);
+  /// False: that is no record of what was asked for.
+  bool take_record(CampaignWorker& worker, const std::string& line) {
+    if (!worker.job()) return false;
+    TrialRecord record;
+    try {
+      record = trial_record_from_json(line, "worker");
+    } catch (const SpecError&) {
+      return false;
+    }
+    if (record.seed.key != worker.job()->seed || record.scenario_hash != hash_) return false;
+    const TrialJob job = worker.take_job();
+    record.attempts = job.attempt;
+    record.first_failure = job.first_failure;
+    keep(record);
+    return true;
   }
 
-  void count(const TrialRecord& record) {
+  void keep(const TrialRecord& record) {
+    store_.append(record);
     ++done_;
+    result_.trial_wall += record.wall_total;
     for (const PickRecord& pick : record.picks) {
       ++attempted_;
       succeeded_ += pick.outcome == PickOutcome::kSucceeded ? 1 : 0;
@@ -153,55 +170,61 @@ class Coordinator {
     progress_.update(done_, total_, std::to_string(succeeded_) + "/" + std::to_string(attempted_) + " picks");
   }
 
-  void feed(Worker& worker) {
-    if (worker.seed) return;
-    if (pending_.empty() || interrupts > 0) {
-      worker.process->close_input();
-      return;
-    }
-    worker.seed = pending_.front();
+  void feed(CampaignWorker& worker) {
+    if (worker.job()) return;
+    if (worker.reserved && interrupts == 0) return worker.give(*std::exchange(worker.reserved, std::nullopt));
+    if (pending_.empty() || interrupts > 0 || worker.worn_out()) return worker.retire();
+    worker.give(pending_.front());
     pending_.pop_front();
-    worker.process->send(std::to_string(*worker.seed) + "\n");
   }
 
-  // The worker ended: as told, because the scene or the disk is bad, or by a crash, which costs one trial.
-  void bury(Worker& worker) {
-    const int code = worker.process->wait();
-    const bool was_ready = worker.ready;
-    const std::optional<std::uint64_t> seed = worker.seed;
-    worker.process.reset();
-    if (code == 2 || code == 6 || !was_ready) {
-      result_.worker_exit = code == 0 ? 5 : code == 2 || code == 6 ? code : 5;
+  // The worker ended: as told, because the scene or the disk is bad, or over a trial, which a fresh worker repeats
+  // once.
+  void bury(Slot& slot) {
+    const CampaignWorker::End end = slot->wait();
+    const bool was_ready = slot->ready();
+    const std::optional<TrialJob> job = slot->job();
+    std::optional<TrialJob> again = slot->reserved;
+    slot.reset();
+    if (end.code == 2 || end.code == 6) {  // it has said why
+      result_.worker_exit = end.code;
       return;
     }
-    if (!seed) return;
-    ++result_.crashed;
-    TrialRecord record;
-    record.scenario = name_;
-    record.scenario_hash = hash_;
-    record.seed = Seed{*seed};
-    record.error = code >= 128 ? "the worker died of signal " + std::to_string(code - 128)
-                               : "the worker ended with exit code " + std::to_string(code);
-    record.picks.emplace_back().outcome = PickOutcome::kInternalError;
-    record.picks.back().reason = record.error;
-    append_file(records_path(), to_json_line(record) + "\n");
-    count(record);
-    if (!pending_.empty() && interrupts == 0) start(worker);
+    if (!was_ready && ++failed_starts_ >= kStarts) {
+      log_line(LogLevel::kError, options_.scene + ": no worker comes up: " + end.text);
+      result_.worker_exit = 5;
+      return;
+    }
+    if (job && job->attempt == 1) again = TrialJob{job->seed, 2, to_string(end.failure) + ": " + end.text};
+    if (job && job->attempt > 1) give_up(*job, end);
+    if (interrupts > 0 || (pending_.empty() && !again)) return;
+    slot = started();
+    slot->reserved = again;
   }
 
-  // Sorted by seed, so that the folder's bytes do not tell in which order workers finished (wall times aside).
-  void sort_records() {
-    if (!std::filesystem::exists(records_path())) return;
-    std::string text;
-    for (const TrialRecord& record : read_records(options_.out)) text += to_json_line(record) + "\n";
-    write_file(records_path(), text);
+  void give_up(const TrialJob& job, const CampaignWorker::End& end) {
+    TrialRecord record;
+    record.scenario = scenario_.name;
+    record.scenario_hash = hash_;
+    record.seed = Seed{job.seed};
+    record.failure = end.failure;
+    record.error = end.text;
+    record.build = build_id();
+    record.attempts = job.attempt;
+    record.first_failure = job.first_failure;
+    keep(record);
   }
 
   CampaignOptions options_;
-  std::string program_, hash_, name_;
+  std::string program_;
   ProgressSink& progress_;
-  std::deque<std::uint64_t> pending_;
+  Scenario scenario_;
+  std::string hash_;
+  RunStore store_;
+  std::vector<Slot> slots_;
+  std::deque<TrialJob> pending_;
   std::size_t total_ = 0, done_ = 0, attempted_ = 0, succeeded_ = 0;
+  int failed_starts_ = 0;
   bool folder_made_ = false, all_started_ = false;
   CampaignResult result_;
 };
@@ -221,6 +244,7 @@ std::vector<std::string> picture_paths(const std::string& run_folder) {
 CampaignSummary write_reports(const std::string& run_folder, double wall_seconds) {
   const std::vector<TrialRecord> records = read_records(run_folder);
   const CampaignSummary summary = summarise(records, wall_seconds);
+  write_canonical(run_folder, records);
   write_file(run_folder + "/summary.json", summary_json(summary) + "\n");
   write_file(run_folder + "/results.md", markdown_report(summary));
   write_file(run_folder + "/picks.csv", picks_csv(records));

@@ -1,6 +1,7 @@
 // A campaign: one scenario, many seeds, worker processes. The coordinator calls no physics and no GL, so nothing that
-// happens inside a trial can take it down; a worker that dies costs one InternalError record. The run folder is that of
-// ARCHITECTURE section 14; a folder that already holds records of the same scenario is completed, not repeated.
+// happens inside a trial can take it down. A trial over which a worker dies, hangs or fills its memory is repeated once
+// in a fresh worker; then it is recorded as what it was, a failed trial, never as a failed pick. The run folder is that
+// of ARCHITECTURE section 14; a folder that already holds records of the same scenario and build is completed.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "core/progress.hpp"
 #include "evaluation/summary.hpp"
+#include "trials/campaign_worker.hpp"
 #include "trials/scenario.hpp"
 
 namespace binpick {
@@ -19,14 +21,17 @@ struct CampaignOptions {
   ScenarioOverrides overrides;
   std::uint64_t first_seed = 0, end_seed = 0;  ///< [first, end)
   int workers = 1;
-  int pictured = 1;  ///< looks pictured per trial; failed picks always are; negative: no pictures at all
+  WorkerLimits limits;
+  std::string plant;  ///< faults planted on purpose (planted_fault.hpp); empty: none
+  int pictured = 1;   ///< looks pictured per trial; failed picks always are; negative: no pictures at all
 };
 
 struct CampaignResult {
   CampaignSummary summary;
-  std::size_t crashed = 0;   ///< workers that died
-  bool interrupted = false;  ///< SIGINT: what was in flight was finished
-  int worker_exit = 0;       ///< 2: the scene could not be loaded; 6: storage
+  double wall = 0;           ///< s, of this run of the campaign
+  double trial_wall = 0;     ///< s, of the trials recorded in it, summed
+  bool interrupted = false;  ///< SIGINT or SIGTERM: what was in flight was finished
+  int worker_exit = 0;       ///< 2: the scene could not be loaded; 5: no worker came up; 6: storage
 };
 
 /// `program` is this executable, re-run as `program worker ..`.

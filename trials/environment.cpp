@@ -9,6 +9,9 @@
 #include <opencv2/core/version.hpp>
 #include <thread>
 
+#include "core/file_io.hpp"
+#include "core/hash.hpp"
+
 namespace binpick {
 namespace {
 
@@ -33,10 +36,19 @@ std::string processor() {
 
 }  // namespace
 
+std::string build_id() {
+  static const std::string id = [] {
+    const std::string program = read_file("/proc/self/exe");
+    return hex(Hasher().bytes(program.data(), program.size()).value());
+  }();
+  return id;
+}
+
 std::string environment_json(const std::string& renderer) {
   nlohmann::ordered_json json;
   json["schema"] = 1;
   json["binpick"] = "0.1.0";
+  json["build"] = build_id();
   json["compiler"] = __VERSION__;
   json["opencv"] = CV_VERSION;
   json["renderer"] = renderer;

@@ -5,6 +5,8 @@
 
 namespace binpick {
 
+/// Hash of this program's file: two builds of it are two programs, whatever their sources.
+std::string build_id();
 std::string environment_json(const std::string& renderer);
 
 /// The libraries' hidden processor dispatch (libm's FMA variants, the software renderer's instruction sets) changes

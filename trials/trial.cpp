@@ -206,11 +206,8 @@ TrialRecord run_trial(const Scenario& scenario, Seed seed, TrialContext& context
   } catch (const StorageError&) {
     throw;  // a full disk is not a property of the trial
   } catch (const std::exception& error) {
+    record.failure = TrialFailure::kInternalError;
     record.error = error.what();
-    PickRecord broken;
-    broken.outcome = PickOutcome::kInternalError;
-    broken.reason = error.what();
-    record.picks.push_back(broken);
   }
   record.wall_total = watch.seconds();
   return record;

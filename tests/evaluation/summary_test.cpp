@@ -56,6 +56,29 @@ TEST(Summary, CountsAreThoseOnPaper) {
   EXPECT_GT(s.cleared.interval.high, s.cleared.rate);
 }
 
+TEST(Summary, AFailedTrialIsNoMeasurement) {
+  std::vector<TrialRecord> records = three_piles();
+  const CampaignSummary sound = summarise(records, 3600);
+  TrialRecord crashed = trial(8, {});
+  crashed.dropped = 10;
+  crashed.failure = TrialFailure::kCrash;
+  crashed.attempts = 2;
+  TrialRecord broken = trial(9, {pick(PickOutcome::kInternalError, 2, 0)});  // as schema 4 told it at first
+  broken.dropped = 10;
+  records.push_back(crashed);
+  records.push_back(broken);
+  const CampaignSummary s = summarise(records, 3600);
+  EXPECT_EQ(s.trials, 5u);
+  EXPECT_EQ(s.failed, 2u);
+  EXPECT_EQ(s.failure_seeds.at("Crash"), std::vector<std::uint64_t>{8});
+  EXPECT_EQ(s.failure_seeds.at("InternalError"), std::vector<std::uint64_t>{9});
+  EXPECT_EQ(s.repeated_seeds, std::vector<std::uint64_t>{8});
+  EXPECT_EQ(s.cleared.total, sound.cleared.total);
+  EXPECT_EQ(s.picks.total, sound.picks.total);
+  EXPECT_EQ(s.recall.total, sound.recall.total);
+  EXPECT_NE(s.records_hash, sound.records_hash);
+}
+
 TEST(Summary, ErrorsAreThoseOfRightEstimates) {
   PickRecord look = pick(PickOutcome::kSucceeded, 4, 0);
   look.check.estimates = {matched(0, 0, true, 0.001), matched(1, 1, true, 0.003), matched(2, 2, false, 0.5),

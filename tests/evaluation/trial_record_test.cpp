@@ -173,7 +173,9 @@ TEST(TrialRecord, AlteredValuesAreNoticed) {
             0u);
   EXPECT_EQ(refusal(line.substr(0, line.rfind("\"picks\":[")) + "\"picks\":[]}}"),
             "run/records/a.jsonl:7: wall.picks: is not as long as the list of picks");
-  EXPECT_EQ(refusal(replaced(line, "\"wall\":{\"total\":12.5", "\"wall\":{\"total\":13.5")), "accepted");
+  EXPECT_EQ(refusal(replaced(line, "\"wall\":{\"total\":12.5", "\"wall\":{\"total\":13.5")),
+            "run/records/a.jsonl:7: sum: does not fit the line: the record was altered or damaged");
+  EXPECT_EQ(refusal(line.substr(0, line.rfind(",\"sum\"")) + "}"), "accepted") << "older lines have no sum";
 }
 
 class RunFolder : public testing::Test {
@@ -196,6 +198,37 @@ class RunFolder : public testing::Test {
   std::string folder_ =
       testing::TempDir() + "binpick_run_" + testing::UnitTest::GetInstance()->current_test_info()->name();
 };
+
+TEST(TrialRecord, TellsWhoRanItAndHowItFailedOutsideAndInsideTheHash) {
+  const TrialRecord sound = full_record(4);
+  TrialRecord repeated = sound;
+  repeated.build = "b1";
+  repeated.attempts = 2;
+  repeated.first_failure = "Crash: signal 11";
+  EXPECT_EQ(record_hash(repeated), record_hash(sound));
+  EXPECT_EQ(canonical_line(repeated), canonical_line(sound));
+  const TrialRecord back = trial_record_from_json(to_json_line(repeated), "x");
+  EXPECT_EQ(back.build, "b1");
+  EXPECT_EQ(back.attempts, 2);
+  EXPECT_EQ(back.first_failure, "Crash: signal 11");
+  EXPECT_FALSE(failure_of(back));
+
+  TrialRecord failed = sound;
+  failed.failure = TrialFailure::kOutOfMemory;
+  EXPECT_NE(record_hash(failed), record_hash(sound));
+  EXPECT_EQ(failure_of(trial_record_from_json(to_json_line(failed), "x")), TrialFailure::kOutOfMemory);
+}
+
+TEST(TrialRecord, EveryFlippedByteOfALineIsTold) {
+  TrialRecord record = full_record(4);
+  record.build = "b1";
+  const std::string line = to_json_line(record);
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    std::string flipped = line;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    EXPECT_THROW(trial_record_from_json(flipped, "x"), SpecError) << at << ": " << line.substr(at, 20);
+  }
+}
 
 TEST_F(RunFolder, RecordsComeSortedBySeedFromAllFiles) {
   write_file(folder_ + "/records/b.jsonl", to_json_line(full_record(3)) + "\n" + to_json_line(full_record(1)) + "\n");
