@@ -22,6 +22,8 @@ if(BINPICK_WITH_SIM)
 
   pkg_check_modules(TINYXML2 REQUIRED IMPORTED_TARGET tinyxml2)
 
+  find_package(SQLite3 REQUIRED)
+
   pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
 
   # Not find_package(ompl): its variables name a folder that does not exist and ODE, which only another planner needs.

@@ -24,7 +24,9 @@ Action add_estimate(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_list(CLI::App& app);
 Action add_part(CLI::App& app);
+Action add_query(CLI::App& app);
 Action add_validate(CLI::App& app);
+Action add_verify(CLI::App& app);
 
 /// --sensor NAME[:PRESET], as ScenarioOverrides has it.
 void add_sensor_option(CLI::App& command, std::string& sensor);

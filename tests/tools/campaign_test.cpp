@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file_io.hpp"
+#include "evaluation/trial_record.hpp"
 #include "tests/tools/run_program.hpp"
 
 namespace binpick {
@@ -58,6 +59,19 @@ TEST(Campaign, TheSameRecordsOnOneAndTwoWorkersAndInReplay) {
   EXPECT_EQ(json::parse(read_file(folder.path("run1/summary.json"))).at("records_hash"),
             json::parse(read_file(folder.path("run2/summary.json"))).at("records_hash"));
   EXPECT_TRUE(fs::exists(folder.path("run1/artifacts/seed-20/00_estimates.png")));
+
+  // The run's own check says the same, and finds what was changed.
+  const ProgramRun same = run_program("verify " + folder.path("run2") + " --sample 2");
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, testing::HasSubstr("2 of 2 records came out again"));
+  std::vector<TrialRecord> changed = read_records(folder.path("run2"));
+  for (TrialRecord& record : changed) record.picks.at(0).estimates_hash ^= 1;
+  std::string text;
+  for (const TrialRecord& record : changed) text += to_json_line(record) + "\n";
+  write_file(folder.path("run2/records/records.jsonl"), text);
+  const ProgramRun other = run_program("verify " + folder.path("run2") + " --sample 1");
+  EXPECT_EQ(other.code, 7) << other.err;
+  EXPECT_THAT(other.out, testing::HasSubstr("differs first in turn 0: estimates: binpick trial"));
 
   // A record replays from the scene and from the run folder's own expanded scenario.
   for (const std::string& source : {scene, folder.path("run1/scenario.yaml")}) {
