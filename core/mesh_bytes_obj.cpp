@@ -56,6 +56,7 @@ class ObjChecker {
 
   void face() {
     if (words_.size() < 4) fail("a face needs three corners");
+    if (words_.size() - 1 > kMostCorners) fail("a face with more than " + std::to_string(kMostCorners) + " corners");
     out_ += "f";
     for (std::size_t k = 1; k < words_.size(); ++k) {
       const std::string_view corner = words_[k].substr(0, words_[k].find('/'));

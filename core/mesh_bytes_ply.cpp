@@ -17,8 +17,8 @@ bool is_index_list(const PlyProperty& p) {
 std::uint64_t check_face(PlyValues& values, const PlyProperty& list, std::uint64_t vertices) {
   const double corners = values.next(list.count);
   if (corners < 3) throw AssetError(values.place() + ": a face with fewer than three corners");
-  if (corners > 3 * static_cast<double>(kMostTriangles))
-    throw AssetError(values.place() + ": a face with too many corners");
+  if (corners > static_cast<double>(kMostCorners))
+    throw AssetError(values.place() + ": a face with more than " + std::to_string(kMostCorners) + " corners");
   const auto count = static_cast<std::uint64_t>(corners);
   for (std::uint64_t k = 0; k < count; ++k) {
     const double index = values.next(list.value);

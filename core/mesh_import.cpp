@@ -5,11 +5,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/one_line.hpp"
 
 namespace binpick {
 namespace {
@@ -45,12 +45,6 @@ TriangleMesh converted(const aiMesh& source, const std::string& path) {
     mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
   }
   return mesh;
-}
-
-std::string one_line(const char* text) {
-  std::string line(text);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  return line;
 }
 
 }  // namespace

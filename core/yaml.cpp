@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/one_line.hpp"
 #include "core/yaml_reader.hpp"
 #include "core/yaml_writer.hpp"
 
@@ -47,16 +48,16 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 void read_yaml_text(const std::string& text, const std::string& name, const std::string& folder,
                     const std::function<void(ConfigVisitor&)>& body) {
   const YamlSource source{name, folder};
-  const YAML::Node root = parse_strictly(text, source);
-  YamlReader reader(root, source, "");
   try {
+    const YAML::Node root = parse_strictly(text, source);
+    YamlReader reader(root, source, "");
     body(reader);
+    reader.check_all_used();
   } catch (const SpecError& error) {
     // Errors of validate() know the key but not the file.
-    const std::string message = error.what();
+    const std::string message = one_line(error.what());
     throw SpecError(message.rfind(name, 0) == 0 ? message : name + ": " + message);
   }
-  reader.check_all_used();
 }
 
 void read_yaml_file(const std::string& path, const std::function<void(ConfigVisitor&)>& body) {

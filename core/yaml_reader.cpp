@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/one_line.hpp"
 #include "core/quantity.hpp"
 #include "core/yaml.hpp"
 
@@ -16,6 +17,33 @@ namespace {
 
 std::string place(const YamlSource& source, const YAML::Mark& mark) {
   return mark.is_null() ? source.name : source.name + ":" + std::to_string(mark.line + 1);
+}
+
+/// Bytes of the UTF-8 character at `at`; 0 where there is none. Overlong forms and surrogates are left to the parser.
+std::size_t character_size(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  const std::size_t size = first < 0x80   ? 1
+                           : first < 0xc2 ? 0
+                           : first < 0xe0 ? 2
+                           : first < 0xf0 ? 3
+                           : first < 0xf5 ? 4
+                                          : 0;
+  if (size > text.size() - at) return 0;
+  for (std::size_t k = 1; k < size; ++k)
+    if ((static_cast<unsigned char>(text[at + k]) & 0xc0) != 0x80) return 0;
+  return size;
+}
+
+// The parser takes byte 4 for the end of its input, and after some other bytes finds documents without end.
+void check_characters(const std::string& text, const YamlSource& source) {
+  int line = 1;
+  for (std::size_t at = 0, size = 0; at < text.size(); at += size) {
+    const char c = text[at];
+    size = character_size(text, at);
+    if (size == 0 || (is_control(c) && c != '\n' && c != '\r' && c != '\t'))
+      throw SpecError(source.name + ":" + std::to_string(line) + ": holds a byte that is no text in UTF-8");
+    line += c == '\n';
+  }
 }
 
 // Repeated keys and runaway documents; recursion depth is bounded by the parser's own limit.
@@ -34,11 +62,13 @@ void check_node(const YAML::Node& node, const YamlSource& source, int& budget) {
 }
 
 // Anchors and aliases make a document of 400 bytes unfold into billions of values: the event stream shows them before
-// any tree is walked.
+// any tree is walked. So it does a second document.
 class AnchorCheck : public YAML::EventHandler {
  public:
   explicit AnchorCheck(const YamlSource& source) : source_(source) {}
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark&) override {
+    if (++documents_ > 1) throw SpecError(source_.name + ": more than one document");
+  }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { check(mark, anchor); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { check(mark, 1); }
@@ -61,29 +91,27 @@ class AnchorCheck : public YAML::EventHandler {
     if (anchor != 0) throw SpecError(place(source_, mark) + ": anchors and aliases are not allowed");
   }
   const YamlSource& source_;
+  int documents_ = 0;
 };
 
 }  // namespace
 
 YAML::Node parse_strictly(const std::string& text, const YamlSource& source) {
+  check_characters(text, source);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     AnchorCheck check(source);
     while (parser.HandleNextDocument(check)) {
     }
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents[0].IsNull()) throw SpecError(source.name + ": the file is empty");
-    if (documents.size() > 1) throw SpecError(source.name + ": more than one document");
-    if (!documents[0].IsMap()) throw SpecError(source.name + ": must hold `key: value` lines");
+    const YAML::Node document = YAML::Load(text);
+    if (document.IsNull()) throw SpecError(source.name + ": the file is empty");
+    if (!document.IsMap()) throw SpecError(source.name + ": must hold `key: value` lines");
     int budget = 100000;
-    check_node(documents[0], source, budget);
-    return documents[0];
+    check_node(document, source, budget);
+    return document;
   } catch (const YAML::Exception& error) {
-    std::string message = error.msg;  // may quote what it met, a line end included
-    std::replace_if(
-        message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
-    throw SpecError(place(source, error.mark) + ": " + message);
+    throw SpecError(place(source, error.mark) + ": " + error.msg);
   }
 }
 
@@ -104,7 +132,10 @@ YAML::Node YamlReader::take(const char* key) {
 
 std::string YamlReader::scalar(const YAML::Node& node, const std::string& key) const {
   if (!node.IsScalar()) fail_at(node.Mark(), key, "must be a single value");
-  return node.Scalar();
+  // A path would end at a zero byte, a name would break the line of every message and table that shows it.
+  const std::string& text = node.Scalar();
+  if (std::any_of(text.begin(), text.end(), is_control)) fail_at(node.Mark(), key, "holds a control character");
+  return text;
 }
 
 double YamlReader::number(const YAML::Node& node, const std::string& key, Unit unit) const {
@@ -206,7 +237,6 @@ void YamlReader::command(const char* key, std::vector<std::string>& value, const
   value.clear();
   for (const auto& item : node) {
     const std::string text = scalar(item, key);
-    if (text.find('\0') != std::string::npos) fail_at(item.Mark(), key, "holds a zero byte");
     value.push_back(is_path_item(text) ? from_here(text) : text);
   }
 }

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/one_line.hpp"
 #include "core/pick_outcome.hpp"
 #include "core/pose.hpp"
 #include "evaluation/trial_failure.hpp"
@@ -173,7 +174,7 @@ class JsonReader {
     }
   }
   [[noreturn]] void fail(const std::string& key, const std::string& message) const {
-    throw SpecError(place_ + key + ": " + message);
+    throw SpecError(one_line(place_ + key + ": " + message));
   }
 
  private:

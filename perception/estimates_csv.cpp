@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/one_line.hpp"
 #include "core/quantity.hpp"
 #include "perception/score_calibration.hpp"
 #include "perception/symmetry_covariance.hpp"
@@ -69,7 +70,7 @@ class Table {
 
  private:
   [[noreturn]] void fail(const std::string& message) const {
-    throw AssetError(path_ + (line_ > 0 ? ":" + std::to_string(line_) : "") + ": " + message);
+    throw AssetError(one_line(path_ + (line_ > 0 ? ":" + std::to_string(line_) : "") + ": " + message));
   }
 
   static std::vector<std::string> split_lines(const std::string& text) {

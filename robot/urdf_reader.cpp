@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "core/one_line.hpp"
 #include "robot/urdf_pose.hpp"
 #include "robot/urdf_shapes.hpp"
 
@@ -51,11 +52,12 @@ class ChainReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw AssetError(source_.urdf + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const { throw AssetError(one_line(source_.urdf + ": " + what)); }
 
   void parse() {
     const std::string text = read_file(source_.urdf, std::size_t{4} << 20);
     if (text.find("<xacro:") != std::string::npos) fail("is a xacro file: expand it first (xacro FILE > arm.urdf)");
+    check_extent(text);
     const CaughtConsole console;
     try {
       model_ = urdf::parseURDF(text);
@@ -64,6 +66,22 @@ class ChainReader {
     }
     if (!model_) fail("not a readable URDF (broken XML, or an element that is not valid)" + console.complaint());
     if (!model_->getRoot()) fail("has no root link");
+  }
+
+  /// The XML parser behind urdfdom calls itself for every level and compares every attribute of an element with all
+  /// others: a file of 4 MiB ends in a stack overflow or takes minutes.
+  void check_extent(const std::string& text) const {
+    constexpr int kMostTags = 20000, kMostAttributes = 1000;
+    int tags = 0, attributes = 0;
+    char last = 0;
+    for (const char c : text) {
+      if (c == '<' && ++tags > kMostTags) fail("has more than " + std::to_string(kMostTags) + " tags");
+      if (c == '<') attributes = 0;
+      attributes += c == '=' && last != '=';  // rows of them are drawn in comments
+      if (attributes > kMostAttributes)
+        fail("has an element of more than " + std::to_string(kMostAttributes) + " attributes");
+      last = c;
+    }
   }
 
   static int moving_joints_to(const urdf::Link& link) {

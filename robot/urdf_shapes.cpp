@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/link_mesh.hpp"
+#include "core/one_line.hpp"
 #include "robot/urdf_pose.hpp"
 
 namespace binpick {
@@ -30,7 +31,7 @@ class ShapeReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw AssetError(source_.urdf + ": link '" + link_.name + "' " + what);
+    throw AssetError(one_line(source_.urdf + ": link '" + link_.name + "' " + what));
   }
 
   void add(const urdf::Geometry& geometry, const urdf::Pose& origin, const Pose& X_OL) {

@@ -88,6 +88,8 @@ std::vector<BadFile> bad_obj() {
   const std::string text = samples::obj();
   const std::string vertex = "v " + samples::mm(samples::block().vertices[0]);
   const std::string face = "f 1 ";
+  std::string many;
+  for (int i = 0; i < 5001; ++i) many += " 1 2";
   return {
       {"ObjEmpty", "a.obj", "", "empty"},
       {"ObjWithoutFaces", "a.obj", head(text, text.find("f ")), "no faces"},
@@ -103,6 +105,7 @@ std::vector<BadFile> bad_obj() {
       {"ObjDecimalComma", "a.obj", with(text, vertex, "v 0,5 0,5 0,5"), "decimal comma"},
       {"ObjCutInAVertex", "a.obj", head(text, text.find(vertex) + 4), "'v x y z' expected"},
       {"ObjFreeForm", "a.obj", text + "curv 0 1 1 2 3\n", "'curv' is not read"},
+      {"ObjFaceOfTooMany", "a.obj", text + "f" + many + "\n", "a face with more than 10000 corners"},
       {"ObjBinary", "a.obj", std::string(64, '\0') + std::string(64, '\xff'), "is not read"},
       {"ObjInMetres", "a.obj", "v 0 0 0\nv 0.05 0 0\nv 0 0.05 0\nv 0 0 0.05\nf 1 2 3\nf 1 2 4\nf 1 3 4\n", "`unit: m`"},
   };
@@ -132,6 +135,7 @@ std::vector<BadFile> bad_ply() {
       {"PlyIndexOutOfRange", "a.ply", with(text, "\n3 ", "\n3 8"), "does not exist"},
       {"PlyNegativeIndex", "a.ply", with(text, "\n3 ", "\n3 -1 "), "does not exist"},
       {"PlyFaceOfTwo", "a.ply", with(text, "\n3 ", "\n2 "), "fewer than three"},
+      {"PlyFaceOfTooMany", "a.ply", with(text, "\n3 ", "\n10001 "), "a face with more than 10000 corners"},
       {"PlyNan", "a.ply", first_is("nan 0 0"), "not a finite number"},
       {"PlyHuge", "a.ply", first_is("0 1e38 0"), "beyond"},
       {"PlyDecimalComma", "a.ply", first_is("0,5 0,5 0,5"), "decimal comma"},

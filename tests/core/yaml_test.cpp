@@ -116,6 +116,14 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCase{"- 1\n", {"key: value"}}, BadCase{"count: 1\n---\ncount: 2\n", {"more than one document"}},
                     BadCase{"a: &x [1]\nb: *x\n", {":1", "anchors"}}, BadCase{"count: [\n", {"scene.yaml"}},
                     BadCase{"\tcount: 1\n", {"scene.yaml:1"}},
+                    // What fuzzing found (docs/fuzzing.md): quoted texts that broke the line, a parser without end.
+                    BadCase{"count: 1\n\"cou\\nnt\": 2\n", {":2: cou?nt: unknown key", "count"}},
+                    BadCase{"\"a\\nb\": 1\n\"a\\nb\": 2\n", {":2: a?b: key appears twice"}},
+                    BadCase{"kind: \"al\\npha\"\n", {":1: kind: holds a control character"}},
+                    BadCase{"file: \"a\\0b\"\n", {":1: file: holds a control character"}},
+                    BadCase{"count: 1\n# gr\xfc\xdf\n", {":2: holds a byte that is no text in UTF-8"}},
+                    BadCase{"count: 1\x04\n", {":1: holds a byte that is no text"}},
+                    BadCase{",l\xff\x06# Flat\xff ", {":1: holds a byte that is no text"}},
                     BadCase{"pose: {xyz: [a, 0, 0]}\n", {"pose.xyz", "'a'"}}));
 
 TEST(Yaml, NestedTooDeepIsRefused) { EXPECT_THAT(error_of("a: " + std::string(3000, '[')), HasSubstr("scene.yaml")); }
@@ -144,7 +152,7 @@ TEST(Quantity, UnitsAndShortestText) {
 TEST(NearestName, FindsNeighboursAndGivesUpOnStrangers) {
   EXPECT_EQ(nearest_name("cont", {"count", "height"}), "count");
   EXPECT_EQ(nearest_name("zzzzzz", {"count", "height"}), "");
-  EXPECT_EQ(nearest_name("d435", {"kinect_v1", "d435_848", "d435_1280"}), "d435_848");  // the beginning of a name
+  EXPECT_EQ(nearest_name("d435", {"kinect_v1", "d435_848", "d435_1280"}), "d435_848");    // the beginning of a name
   EXPECT_EQ(nearest_name("d345", {"kinect_v1", "d435_848", "d435_848_out_of_box"}), "");  // two letters of four differ
   EXPECT_EQ(nearest_name("k", {"kinect_v1"}), "");
 }

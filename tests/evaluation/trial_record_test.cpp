@@ -156,6 +156,7 @@ TEST(TrialRecord, BadLinesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refusal(replaced(line, "\"dropped\":10", "\"dropped\":1e10")), place + "dropped: is not a whole number");
   EXPECT_EQ(refusal(replaced(line, "\"seed\":5000", "\"seed\":-1")), place + "seed: is not a whole number >= 0");
   EXPECT_EQ(refusal(replaced(line, "\"escaped\"", "\"extra\":1,\"escaped\"")), place + "extra: unknown key");
+  EXPECT_EQ(refusal(replaced(line, "\"escaped\"", "\"ex\\ntra\":1,\"escaped\"")), place + "ex?tra: unknown key");
   EXPECT_EQ(refusal(replaced(line, "NoSeal", "NoSeel")), place + "picks[1].outcome: 'NoSeel' is not a pick outcome");
   EXPECT_EQ(refusal(replaced(line, "\"score\":0.75", "\"scorn\":0.75")),
             place + "picks[0].estimates[0].score: is missing");

@@ -70,6 +70,7 @@ TEST(BadEstimatesCsv, SaysWhatIsWrong) {
       {"part,score\n", "column r11 is missing"},
       {"part,scor\n", "'scor' is not a column"},
       {"part,part\n", "stands twice"},
+      {"part,sc\x1b[2Jore\n", "'sc?[2Jore' is not a column"},
       {kHead + "0,0.5," + identity + ",0,0\n", ":2: has 13 values for 14 columns"},
       {kHead + "2,0.5," + identity + ",0,0,1\n", "part 2 is none of the 2 parts"},
       {kHead + "-1,0.5," + identity + ",0,0,1\n", "part -1"},

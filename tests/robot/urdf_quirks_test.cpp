@@ -160,6 +160,16 @@ TEST_F(Urdf, FaultsAreNamed) {
   expect_says(error_of(replaced(ur, "<robot", "<robot xmlns:xacro=\"x\"><xacro:include/></robot><robot")),
               "is a xacro");
   expect_says(error_of(replaced(ur, "type=\"continuous\"", "type=\"floating\"")), "'wrist_3_joint' is not revolute");
+  expect_says(error_of(replaced(ur, "\"wrist_3_joint\" type=\"continuous\"", "\"wrist\n3\" type=\"floating\"")),
+              "'wrist?3' is not revolute");
+}
+
+TEST_F(Urdf, NestedTooDeepOrTooWideForTheParserIsRefused) {
+  std::string deep = "<robot name=\"deep\">", wide = "<robot name=\"wide\"";
+  for (int i = 0; i < 300000; ++i) deep += "<a>";  // the parser calls itself: a stack overflow
+  for (int i = 0; i < 200000; ++i) wide += " a" + std::to_string(i) + "=\"1\"";  // minutes
+  expect_says(error_of(deep), "has more than 20000 tags");
+  expect_says(error_of(wide + "/>"), "has an element of more than 1000 attributes");
 }
 
 }  // namespace
