@@ -30,7 +30,7 @@ if(BINPICK_SANITIZE)
                                                  -fno-sanitize=null,vptr,object-size
                                                  -fno-omit-frame-pointer
                                                  # g++ 12 sees uninitialised values that are not, once it instruments
-                                                 -Wno-maybe-uninitialized)
+                                                 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   # AddressSanitizer makes Eigen allocate in another way than the Eigen in KDL's and PCL's packages frees. Its malloc
   # aligns to 16 bytes as the C library's does.
   target_compile_definitions(binpick_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)

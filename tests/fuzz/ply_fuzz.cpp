@@ -1,0 +1,8 @@
+// PLY bytes.
+#include "tests/fuzz/mesh_fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const binpick::fuzz::InputFile file("input.ply");
+  binpick::fuzz::read_as_part(file.put(data, size), "mm", false);
+  return 0;
+}
