@@ -22,6 +22,9 @@ target_include_directories(binpick_flags INTERFACE
 # For kernels in .cpp files of their own, without Eigen or PCL: wide registers. A fused multiplication would change bits
 # (no contraction, above); nobody reads errno or floating-point exceptions, and telling so changes none.
 set(BINPICK_KERNEL_OPTIONS -O3 -march=x86-64-v3 -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  list(APPEND BINPICK_KERNEL_OPTIONS -Wno-bitwise-instead-of-logical)  # masks without branches are meant
+endif()
 
 if(BINPICK_SANITIZE)
   # -Og takes half the compile time of -O2 here, where the checks are most of the code. AddressSanitizer reports a null

@@ -135,7 +135,7 @@ void World::Impl::find_touched(Touched& touched) const {
   for (const auto& [pair, force] : forces) {
     const Body &frozen = at(pair.first), &other = at(pair.second);
     const auto support = std::find_if(frozen.supports.begin(), frozen.supports.end(),
-                                      [&](const Support& s) { return s.other == pair.second; });
+                                      [second = pair.second](const Support& s) { return s.other == second; });
     const bool known = support != frozen.supports.end();
     const double limit = config.wake_weights * frozen.mass * config.gravity + (known ? support->force : 0);
     const bool moved = motion_of(other, known ? support->X_WM : other.X_rest) > config.wake_motion;
