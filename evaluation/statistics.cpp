@@ -74,6 +74,34 @@ std::vector<double> bootstrap(std::size_t units, Seed seed, int resamples,
   return values;
 }
 
+namespace {
+
+/// How far the resamples' median lies from the rate, in normal units; ties count half.
+double median_bias(std::span<const double> rates, double rate) {
+  double below = 0;
+  for (const double r : rates) below += r < rate ? 1 : r == rate ? 0.5 : 0;
+  const double n = static_cast<double>(rates.size());
+  return normal_quantile(std::clamp(below / n, 0.5 / n, 1 - 0.5 / n));
+}
+
+/// How fast the rate's standard error changes with the rate: a sixth of the skewness of what each pile adds.
+double jackknife_acceleration(std::span<const ClusterCount> piles, const ClusterCount& pooled) {
+  std::vector<double> without;
+  for (const ClusterCount& pile : piles) {
+    const double total = pooled.total - pile.total;
+    without.push_back(total > 0 ? (pooled.hits - pile.hits) / total : 0);
+  }
+  const double middle = mean(without);
+  double squares = 0, cubes = 0;
+  for (const double w : without) {
+    squares += (middle - w) * (middle - w);
+    cubes += (middle - w) * (middle - w) * (middle - w);
+  }
+  return squares > 0 ? cubes / (6 * std::pow(squares, 1.5)) : 0;
+}
+
+}  // namespace
+
 Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples, double confidence) {
   std::vector<ClusterCount> counted;  // a pile that asked nothing says nothing
   ClusterCount pooled;
@@ -96,7 +124,16 @@ Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int r
     }
     return sum.hits / sum.total;
   });
-  return {quantile(rates, (1 - confidence) / 2), quantile(rates, (1 + confidence) / 2)};
+  const double rate = pooled.hits / pooled.total;
+  const double bias = median_bias(rates, rate), acceleration = jackknife_acceleration(counted, pooled);
+  const double n = static_cast<double>(counted.size());
+  const double z = std::sqrt(n / (n - 1)) * boost::math::quantile(boost::math::students_t(n - 1), 0.5 + confidence / 2);
+  const auto corrected = [&](double at) {
+    const double stretch = 1 - acceleration * (bias + at);
+    if (stretch <= 0) return at < 0 ? 0.0 : 1.0;
+    return boost::math::cdf(boost::math::normal(), bias + (bias + at) / stretch);
+  };
+  return {quantile(rates, corrected(-z)), quantile(rates, corrected(z))};
 }
 
 double quantile(std::vector<double> values, double q) {

@@ -73,6 +73,7 @@ Action add_campaign(CLI::App& app) {
       ->check(CLI::Range(100.0, 1e7));
   command->add_option("--worker-trials", options->campaign.limits.trials, "trials after which a worker is replaced")
       ->check(CLI::Range(1, 1000000000));
+  command->add_option("--shuffle", options->campaign.shuffle, "N: seeds are given out in an order drawn from N");
   command->add_option("--plant", options->campaign.plant, "faults planted on purpose")->group("");  // docs/campaigns.md
   command->add_option("--pictured", options->campaign.pictured,
                       "looks pictured per trial (failed picks always are); -1: no pictures at all");

@@ -67,6 +67,7 @@ class Coordinator {
     const std::set<std::uint64_t> done = store_.recorded();
     for (std::uint64_t seed = options_.first_seed; seed < options_.end_seed; ++seed)
       if (!done.count(seed)) pending_.push_back({seed, 1, ""});
+    if (options_.shuffle != 0) shuffle();
     total_ = pending_.size();
     const auto start = std::chrono::steady_clock::now();
     if (!pending_.empty()) work();
@@ -80,6 +81,12 @@ class Coordinator {
   }
 
  private:
+  void shuffle() {
+    const auto rank = [&](const TrialJob& job) { return Seed{options_.shuffle}.child("order", job.seed).key; };
+    std::sort(pending_.begin(), pending_.end(),
+              [&](const TrialJob& a, const TrialJob& b) { return rank(a) < rank(b); });
+  }
+
   using Slot = std::unique_ptr<CampaignWorker>;
 
   Slot started() const {
