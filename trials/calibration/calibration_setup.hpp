@@ -2,6 +2,7 @@
 // the fixed camera, Q a plate, F the flange, C the camera on it, R the robot's base.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/camera.hpp"
@@ -10,8 +11,12 @@
 
 namespace binpick {
 
+class PlateImages;
+
 struct CalibrationSetup {
   const Cell* cell = nullptr;
+  /// Where corners come from: found in rendered grey images; null: projected, and disturbed by the stated corner noise.
+  std::shared_ptr<const PlateImages> images;
   MarkerPlate plate;
   PinholeCamera camera_C{1280, 720,   920,
                          920,  639.5, 359.5};  ///< of the grey image of the camera on the flange (a D4xx's)

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/check.hpp"
 #include "core/error.hpp"
 #include "robot/inverse_kinematics.hpp"
+#include "trials/calibration/plate_images.hpp"
 
 namespace binpick {
 namespace {
@@ -33,6 +33,14 @@ class BuiltCell {
 
  private:
   Pose seen(const Pose& X_CQ, const PinholeCamera& stated, const PinholeCamera& built) const {
+    const std::vector<SeenCorner> corners =
+        setup_.images ? setup_.images->corners(X_CQ, built) : disturbed_corners(X_CQ, built);
+    const std::optional<Pose> pose = plate_pose(corners, setup_.plate, stated);
+    if (!pose) throw SpecError("calibration: no marker of the plate is found in an image");
+    return *pose;
+  }
+
+  std::vector<SeenCorner> disturbed_corners(const Pose& X_CQ, const PinholeCamera& built) const {
     std::vector<SeenCorner> corners;
     const std::vector<Eigen::Vector3d> corners_Q = setup_.plate.corners_Q();
     for (std::size_t i = 0; i < corners_Q.size(); ++i) {
@@ -40,9 +48,7 @@ class BuiltCell {
       for (int k = 0; k < 2; ++k) pixel[k] += errors_.corner * normal_();
       corners.push_back({i, pixel});
     }
-    const std::optional<Pose> pose = plate_pose(corners, setup_.plate, stated);
-    BP_CHECK(pose.has_value(), corners.size());
-    return *pose;
+    return corners;
   }
 
   const CalibrationSetup& setup_;

@@ -1,0 +1,37 @@
+#include "trials/calibration/plate_images.hpp"
+
+#include "core/hash.hpp"
+#include "core/primitive.hpp"
+
+namespace binpick {
+namespace {
+
+constexpr double kThickness = 0.004;  // m
+
+}  // namespace
+
+PlateImages::PlateImages(const MarkerPlate& plate, const std::string& renderer)
+    : plate_(plate), renderer_(make_renderer(renderer)) {
+  item_.mesh_O = std::make_shared<const TriangleMesh>(mesh_of(
+      Primitive::box({plate.edge(), plate.edge(), kThickness}, Pose(Eigen::Translation3d(0, 0, -kThickness / 2)))));
+  item_.id = 1;
+  item_.texture = std::make_shared<const SurfaceTexture>(plate.texture());
+}
+
+PlateImages::~PlateImages() = default;
+
+// The camera stands at the world's origin: only where the plate is before it counts.
+Image<std::uint8_t> PlateImages::image(const Pose& X_CQ, const PinholeCamera& camera) const {
+  RenderScene scene;
+  scene.items.push_back(item_);
+  scene.items.back().X_WO = X_CQ;
+  GreyCamera grey;
+  grey.intrinsics = camera;
+  return capture_grey(*renderer_, scene, grey, {}, Seed{Hasher().add(X_CQ).value()});
+}
+
+std::vector<SeenCorner> PlateImages::corners(const Pose& X_CQ, const PinholeCamera& camera) const {
+  return find_corners(image(X_CQ, camera), plate_);
+}
+
+}  // namespace binpick
