@@ -73,7 +73,7 @@ TriangleMesh read_link_mesh(const std::string& path) {
   } else if (extension == ".obj") {
     mesh = merged(import_mesh(checked_obj(bytes, path), "obj", path));
   } else if (extension == ".ply") {
-    mesh = merged(import_mesh(checked_ply(std::move(bytes), path), "ply", path));
+    mesh = merged(import_mesh(checked_ply(bytes, path), "ply", path));
   } else {
     throw AssetError(path + ": link meshes '" + shown(extension) + "' are not read (.stl, .dae, .obj, .ply)");
   }

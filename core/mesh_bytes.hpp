@@ -20,8 +20,9 @@ std::string checked_stl(std::string bytes, const std::string& path);
 /// OBJ: vertices, faces with absolute positive indices and objects "piece_<n>"; everything else is left out.
 std::string checked_obj(const std::string& bytes, const std::string& path);
 
-/// PLY, ASCII and binary of both byte orders: the same bytes, walked through once.
-std::string checked_ply(std::string bytes, const std::string& path);
+/// PLY, ASCII and binary of both byte orders: one list of vertices and one of faces, written anew in binary; everything
+/// else is left out.
+std::string checked_ply(const std::string& bytes, const std::string& path);
 
 /// A finite number of the C locale, at most kLargestCoordinate. Throws AssetError that starts with `place`.
 double plain_number(std::string_view token, const std::string& place);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <memory>
 
 #include "core/error.hpp"
 #include "core/mesh_bytes.hpp"
@@ -13,75 +15,124 @@ bool is_index_list(const PlyProperty& p) {
          p.value.kind != PlyScalar::Kind::kReal;
 }
 
-/// Corners of one face: at least three, each an existing vertex. Returns the triangles it makes.
-std::uint64_t check_face(PlyValues& values, const PlyProperty& list, std::uint64_t vertices) {
-  const double corners = values.next(list.count);
-  if (corners < 3) throw AssetError(values.place() + ": a face with fewer than three corners");
-  if (corners > static_cast<double>(kMostCorners))
-    throw AssetError(values.place() + ": a face with more than " + std::to_string(kMostCorners) + " corners");
-  const auto count = static_cast<std::uint64_t>(corners);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const double index = values.next(list.value);
-    if (index < 0 || index >= static_cast<double>(vertices)) {
-      throw AssetError(values.place() + ": vertex " + std::to_string(static_cast<std::int64_t>(index)) +
-                       " does not exist, the file has " + std::to_string(vertices));
-    }
+/// The file as the importer gets it. It is written anew: where the importer's reading of a header, of names or of the
+/// first byte after the header departs from ours, it writes beyond its arrays.
+class PlyWriter {
+ public:
+  void vertex(const std::array<float, 3>& xyz) {
+    vertices_ += ' ';  // the first byte of the data must not look like another line end of the header
+    vertices_.append(reinterpret_cast<const char*>(xyz.data()), sizeof xyz);
+    ++vertex_count_;
   }
-  return count - 2;
-}
+  void corner_count(std::int32_t count) {
+    add(count);
+    ++face_count_;
+  }
+  void corner(std::int32_t vertex) { add(vertex); }
+  std::string bytes() const {
+    return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertex_count_) +
+           "\nproperty uchar pad\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+           std::to_string(face_count_) + "\nproperty list int int vertex_indices\nend_header\n" + vertices_ + faces_;
+  }
 
-void check_other(PlyValues& values, const PlyElement& element, const PlyProperty& property) {
-  const double repeats = property.is_list ? values.next(property.count) : 1;
-  if (repeats < 0) throw AssetError(values.place() + ": a list with a negative count");
-  for (double k = 0; k < repeats; ++k) {
-    const double value = values.next(property.value);
-    if (element.name == "vertex" && is_coordinate(property.name)) check_coordinate(value, values.place());
-  }
-}
+ private:
+  void add(std::int32_t value) { faces_.append(reinterpret_cast<const char*>(&value), sizeof value); }
 
-void check_shape(const PlyHeader& header, const std::string& path, std::uint64_t& vertices) {
-  bool faces = false;
-  for (const PlyElement& element : header.elements) {
-    const auto& p = element.properties;
-    if (element.name == "vertex") {
-      const auto found =
-          std::count_if(p.begin(), p.end(), [](const PlyProperty& q) { return !q.is_list && is_coordinate(q.name); });
-      if (found != 3) throw AssetError(path + ": the vertices lack x, y or z");
-      vertices = element.count;
-    }
-    if (element.name == "face") faces = element.count > 0 && std::count_if(p.begin(), p.end(), is_index_list) == 1;
-    if (element.count > 0 && p.empty())
-      throw AssetError(path + ": element '" + shown(element.name) + "' has no properties");
+  std::string vertices_, faces_;
+  std::uint64_t vertex_count_ = 0, face_count_ = 0;
+};
+
+class PlyChecker {
+ public:
+  PlyChecker(const std::string& bytes, const std::string& path)
+      : path_(path), header_(read_ply_header(bytes, path)), values_(ply_values(bytes, path, header_)) {
+    check_shape();
   }
-  if (!faces) throw AssetError(path + ": holds no faces");
-}
+
+  std::string checked() {
+    for (const PlyElement& element : header_.elements)
+      for (std::uint64_t i = 0; i < element.count; ++i) record(element);
+    values_->end();
+    return out_.bytes();
+  }
+
+ private:
+  void check_shape() {
+    int vertices = 0, faces = 0;
+    for (const PlyElement& element : header_.elements) {
+      const auto& p = element.properties;
+      if (element.name == "vertex") {
+        ++vertices;
+        vertices_ = element.count;
+        for (const char* name : {"x", "y", "z"})
+          if (std::count_if(p.begin(), p.end(), [&](const PlyProperty& q) { return !q.is_list && q.name == name; }) !=
+              1)
+            throw AssetError(path_ + ": the vertices lack x, y or z");
+      }
+      if (element.name == "face")
+        faces += element.count > 0 && std::count_if(p.begin(), p.end(), is_index_list) == 1 ? 1 : 2;
+      if (element.count > 0 && p.empty())
+        throw AssetError(path_ + ": element '" + shown(element.name) + "' has no properties");
+    }
+    if (vertices != 1) throw AssetError(path_ + ": must hold one list of vertices");
+    if (faces != 1) throw AssetError(path_ + ": holds no faces");
+  }
+
+  void record(const PlyElement& element) {
+    std::array<float, 3> xyz{};
+    values_->begin_record();
+    for (const PlyProperty& property : element.properties) {
+      if (element.name == "face" && is_index_list(property)) {
+        face(property);
+      } else if (element.name == "vertex" && !property.is_list && is_coordinate(property.name)) {
+        const double value = values_->next(property.value);
+        check_coordinate(value, values_->place());
+        xyz[static_cast<std::size_t>(property.name[0] - 'x')] = static_cast<float>(value);
+      } else {
+        skip(property);
+      }
+    }
+    values_->end_record();
+    if (element.name == "vertex") out_.vertex(xyz);
+  }
+
+  /// At least three corners, each an existing vertex.
+  void face(const PlyProperty& list) {
+    const double corners = values_->next(list.count);
+    if (corners < 3) fail("a face with fewer than three corners");
+    if (corners > static_cast<double>(kMostCorners))
+      fail("a face with more than " + std::to_string(kMostCorners) + " corners");
+    const auto count = static_cast<std::int32_t>(corners);
+    out_.corner_count(count);
+    for (std::int32_t k = 0; k < count; ++k) {
+      const double index = values_->next(list.value);
+      if (index < 0 || index >= static_cast<double>(vertices_))
+        fail("vertex " + std::to_string(static_cast<std::int64_t>(index)) + " does not exist, the file has " +
+             std::to_string(vertices_));
+      out_.corner(static_cast<std::int32_t>(index));
+    }
+    triangles_ += static_cast<std::uint64_t>(count) - 2;
+    if (triangles_ > kMostTriangles)
+      throw AssetError(path_ + ": more than " + std::to_string(kMostTriangles) + " triangles");
+  }
+
+  void skip(const PlyProperty& property) {
+    const double repeats = property.is_list ? values_->next(property.count) : 1;
+    if (repeats < 0) fail("a list with a negative count");
+    for (double k = 0; k < repeats; ++k) values_->next(property.value);
+  }
+
+  [[noreturn]] void fail(const std::string& message) const { throw AssetError(values_->place() + ": " + message); }
+
+  const std::string& path_;
+  PlyHeader header_;
+  std::unique_ptr<PlyValues> values_;
+  std::uint64_t vertices_ = 0, triangles_ = 0;
+  PlyWriter out_;
+};
 
 }  // namespace
 
-std::string checked_ply(std::string bytes, const std::string& path) {
-  const PlyHeader header = read_ply_header(bytes, path);
-  std::uint64_t vertices = 0;
-  check_shape(header, path, vertices);
-  const std::unique_ptr<PlyValues> values = ply_values(bytes, path, header);
-  std::uint64_t triangles = 0;
-  for (const PlyElement& element : header.elements) {
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      values->begin_record();
-      for (const PlyProperty& property : element.properties) {
-        if (element.name == "face" && is_index_list(property)) {
-          triangles += check_face(*values, property, vertices);
-        } else {
-          check_other(*values, element, property);
-        }
-      }
-      values->end_record();
-      if (triangles > kMostTriangles) {
-        throw AssetError(path + ": more than " + std::to_string(kMostTriangles) + " triangles");
-      }
-    }
-  }
-  values->end();
-  return bytes;
-}
+std::string checked_ply(const std::string& bytes, const std::string& path) { return PlyChecker(bytes, path).checked(); }
 
 }  // namespace binpick

@@ -82,7 +82,7 @@ std::vector<TriangleMesh> read_objects(const std::string& path, const std::strin
   } else if (extension == ".obj") {
     bytes = checked_obj(bytes, path);
   } else if (extension == ".ply") {
-    bytes = checked_ply(std::move(bytes), path);
+    bytes = checked_ply(bytes, path);
   } else {
     throw AssetError(path + ": files '" + shown(extension) + "' are not read (.stl, .obj, .ply, .step, .stp)");
   }

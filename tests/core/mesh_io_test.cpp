@@ -55,6 +55,24 @@ TEST_F(MeshIo, EveryFormatGivesTheSameBlock) {
   }
 }
 
+// The importer takes a VERTEX for a vertex, strips for faces, the first format line, and a line end among the data for
+// one of the header: each ended in a crash.
+TEST_F(MeshIo, APlyIsWhatOurOwnHeaderReaderSaysItIs) {
+  const std::string text = samples::ascii_ply(), face = "element face 12", first_face = "\n3 ";
+  const auto with_element = [&](const std::string& element, const std::string& data) {
+    return with(with(text, face, element + "\n" + face), first_face, "\n" + data + first_face);
+  };
+  std::string line_end_first = samples::binary_ply(false);
+  line_end_first[line_end_first.find("end_header\n") + 11] = '\n';  // 20 nm off
+  for (const std::string& bytes :
+       {with_element("element VERTEX 1\nproperty float x", "7"),
+        with_element("element tristrips 1\nproperty list int int vertex_indices", "5 0 1 99 -1 1000000"),
+        with(text, "format ascii 1.0", "format binary_little_endian 1.0\nformat ascii 1.0"), line_end_first}) {
+    SCOPED_TRACE(bytes.substr(0, 200));
+    expect_block(read("a.ply", bytes), kFloat);
+  }
+}
+
 TEST_F(MeshIo, WritesWhatItReads) {
   write_stl(folder_.at("a.stl"), samples::block());
   expect_block(read_mesh(folder_.at("a.stl")), kFloat);

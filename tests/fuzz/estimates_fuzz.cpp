@@ -7,7 +7,7 @@ namespace {
 /// A part without a symmetry and one with an axis: estimates_csv asks for nothing else of them.
 std::vector<binpick::Part> two_parts() {
   std::vector<binpick::Part> parts(2);
-  parts[1].symmetry.axis.emplace();
+  parts[1].symmetry.axis = binpick::Symmetry::Axis{};
   return parts;
 }
 
