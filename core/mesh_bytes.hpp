@@ -12,6 +12,7 @@ namespace binpick {
 
 constexpr std::uint64_t kMostTriangles = 10'000'000;
 constexpr std::uint64_t kMostCorners = 10'000;  ///< of one face: cutting it into triangles takes the square of it
+constexpr std::uint64_t kMostObjects = 20'000;  ///< of an OBJ: the importer takes the square of it
 constexpr double kLargestCoordinate = 1e9;      ///< in file units: a million times a metre in mm
 
 /// STL, binary or ASCII: the bytes to hand to the importer (ASCII in lower case, without normals). Throws AssetError.

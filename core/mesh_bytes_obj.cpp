@@ -34,6 +34,7 @@ class ObjChecker {
     if (keyword == "v") return vertex();
     if (keyword == "f") return face();
     if (keyword == "o") {
+      if (objects_ == kMostObjects) fail("more than " + std::to_string(kMostObjects) + " objects");
       out_ += "o piece_" + std::to_string(objects_++) + "\n";
       return;
     }
@@ -48,10 +49,16 @@ class ObjChecker {
     out_ += "v";
     for (std::size_t k = 1; k < words_.size(); ++k) {
       plain_number(words_[k], lines_.place());
-      if (k < 4) out_.append(" ").append(words_[k]);
+      if (k < 4) add_number(words_[k]);
     }
     out_ += "\n";
     ++vertices_;
+  }
+
+  /// A number that begins with its point is no number to the importer, which then leaves the vertex out.
+  void add_number(std::string_view token) {
+    const std::size_t sign = token.find_first_not_of("+-");
+    out_.append(" ").append(token.substr(0, sign)).append(token[sign] == '.' ? "0" : "").append(token.substr(sign));
   }
 
   void face() {

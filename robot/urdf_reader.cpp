@@ -66,6 +66,20 @@ class ChainReader {
     }
     if (!model_) fail("not a readable URDF (broken XML, or an element that is not valid)" + console.complaint());
     if (!model_->getRoot()) fail("has no root link");
+    check_tree();
+  }
+
+  /// urdfdom asks for one root, not for a tree below it: the way up from a loop, or down into one, would not end.
+  void check_tree() const {
+    std::set<std::string> children;
+    for (const auto& [name, joint] : model_->joints_)
+      if (!children.insert(joint->child_link_name).second)
+        fail("has two joints that carry link '" + joint->child_link_name + "'");
+    for (const auto& [name, link] : model_->links_) {
+      std::size_t above = 0;
+      for (const urdf::Link* at = link.get(); at->parent_joint; at = at->getParent().get())
+        if (++above > model_->links_.size()) fail("has joints that form a loop at link '" + name + "'");
+    }
   }
 
   /// The XML parser behind urdfdom calls itself for every level and compares every attribute of an element with all

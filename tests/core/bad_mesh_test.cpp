@@ -90,6 +90,8 @@ std::vector<BadFile> bad_obj() {
   const std::string face = "f 1 ";
   std::string many;
   for (int i = 0; i < 5001; ++i) many += " 1 2";
+  std::string objects;
+  for (int i = 0; i < 20000; ++i) objects += "o a\n";
   return {
       {"ObjEmpty", "a.obj", "", "empty"},
       {"ObjWithoutFaces", "a.obj", head(text, text.find("f ")), "no faces"},
@@ -105,6 +107,7 @@ std::vector<BadFile> bad_obj() {
       {"ObjDecimalComma", "a.obj", with(text, vertex, "v 0,5 0,5 0,5"), "decimal comma"},
       {"ObjCutInAVertex", "a.obj", head(text, text.find(vertex) + 4), "'v x y z' expected"},
       {"ObjFreeForm", "a.obj", text + "curv 0 1 1 2 3\n", "'curv' is not read"},
+      {"ObjTooManyObjects", "a.obj", text + objects, "more than 20000 objects"},
       {"ObjFaceOfTooMany", "a.obj", text + "f" + many + "\n", "a face with more than 10000 corners"},
       {"ObjBinary", "a.obj", std::string(64, '\0') + std::string(64, '\xff'), "is not read"},
       {"ObjInMetres", "a.obj", "v 0 0 0\nv 0.05 0 0\nv 0 0.05 0\nv 0 0 0.05\nf 1 2 3\nf 1 2 4\nf 1 3 4\n", "`unit: m`"},

@@ -55,6 +55,13 @@ TEST_F(MeshIo, EveryFormatGivesTheSameBlock) {
   }
 }
 
+TEST_F(MeshIo, ObjNumbersMayBeginWithTheirPoint) {
+  std::string text = samples::obj();
+  const std::string first = "v " + samples::mm(samples::block().vertices[0]) + "\n";  // -20 0 20
+  text = with(text, first, "v -.2e2 .0 +.02e3\n");
+  expect_block(read("a.obj", text), kFloat);
+}
+
 // The importer takes a VERTEX for a vertex, strips for faces, the first format line, and a line end among the data for
 // one of the header: each ended in a crash.
 TEST_F(MeshIo, APlyIsWhatOurOwnHeaderReaderSaysItIs) {

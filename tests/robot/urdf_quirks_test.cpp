@@ -164,6 +164,21 @@ TEST_F(Urdf, FaultsAreNamed) {
               "'wrist?3' is not revolute");
 }
 
+TEST_F(Urdf, LinksThatAreNoTreeAreRefused) {
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<joint name=\"" + name + "\" type=\"fixed\"><parent link=\"" + parent + "\"/><child link=\"" + child +
+           "\"/></joint>";
+  };
+  const std::string links =
+      "<robot name=\"a\"><link name=\"base\"/><link name=\"side\"/><link name=\"tool0\"/><link name=\"end\"/>";
+  expect_says(error_of(links + joint("i", "base", "side") + joint("j", "tool0", "end") + joint("k", "end", "tool0") +
+                       "</robot>"),
+              "has joints that form a loop at link 'end'");
+  expect_says(error_of(links + joint("i", "base", "side") + joint("j", "base", "end") + joint("k", "side", "tool0") +
+                       joint("l", "tool0", "side") + "</robot>"),
+              "has two joints that carry link 'side'");
+}
+
 TEST_F(Urdf, NestedTooDeepOrTooWideForTheParserIsRefused) {
   std::string deep = "<robot name=\"deep\">", wide = "<robot name=\"wide\"";
   for (int i = 0; i < 300000; ++i) deep += "<a>";  // the parser calls itself: a stack overflow
