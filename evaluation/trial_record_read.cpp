@@ -32,6 +32,18 @@ void read_lines(const std::filesystem::path& path, std::vector<TrialRecord>& rec
   }
 }
 
+/// A record's own hash says that nobody altered it, not that its counts fit together: rates must not leave 0 .. 1.
+void check_counts(const TrialRecord& record, const JsonReader& reader) {
+  if (record.placed < 0 || record.placed > record.dropped) reader.fail("placed", "does not lie in 0 .. dropped");
+  for (std::size_t i = 0; i < record.picks.size(); ++i) {
+    const PoseCheck& check = record.picks[i].check;
+    const std::string pick = "picks[" + std::to_string(i) + "].";
+    if (std::max({check.found, check.found_tight, check.found_2mm}) > check.visible)
+      reader.fail(pick + "visible", "is less than found");
+    if (check.right > check.counted) reader.fail(pick + "counted", "is less than right");
+  }
+}
+
 void check_sum(const std::string& line, JsonReader& reader) {
   std::uint64_t sum = 0;
   reader.hash("sum", sum);
@@ -56,6 +68,7 @@ TrialRecord trial_record_from_json(const std::string& line, const std::string& p
   reader.hash("hash", hash);
   const std::size_t picks = record.picks.size();
   if (hash != record_hash(record)) reader.fail("hash", "does not fit the values: the record was altered or damaged");
+  check_counts(record, reader);
   record::run_fields(reader, record);
   JsonReader wall(reader.at("wall"), place + ": wall.");
   record::wall_fields(wall, record);

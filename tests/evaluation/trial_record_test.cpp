@@ -179,6 +179,21 @@ TEST(TrialRecord, AlteredValuesAreNoticed) {
   EXPECT_EQ(refusal(line.substr(0, line.rfind(",\"sum\"")) + "}"), "accepted") << "older lines have no sum";
 }
 
+TEST(TrialRecord, CountsMustFitTogether) {
+  const auto refused = [](const auto& spoil) {
+    TrialRecord record = full_record();
+    spoil(record);
+    return refusal(to_json_line(record));  // with the hash that fits
+  };
+  const std::string place = "run/records/a.jsonl:7: ";
+  EXPECT_EQ(refused([](TrialRecord&) {}), "accepted");
+  EXPECT_EQ(refused([](TrialRecord& r) { r.placed = r.dropped + 1; }), place + "placed: does not lie in 0 .. dropped");
+  EXPECT_EQ(refused([](TrialRecord& r) { r.picks[1].check.found_2mm = r.picks[1].check.visible + 1; }),
+            place + "picks[1].visible: is less than found");
+  EXPECT_EQ(refused([](TrialRecord& r) { r.picks[0].check.counted = r.picks[0].check.right - 1; }),
+            place + "picks[0].counted: is less than right");
+}
+
 class RunFolder : public testing::Test {
  protected:
   RunFolder() {
