@@ -16,8 +16,21 @@ namespace {
 struct Options {
   CampaignOptions campaign;
   std::string seeds = "5000:5010";
+  std::string shard;
   double memory_mb = 4096;
 };
+
+std::pair<int, int> parse_shard(const std::string& text) {
+  int index = 0, count = 0;
+  const char* end = text.data() + text.size();
+  const auto [slash, bad_index] = std::from_chars(text.data(), end, index);
+  if (bad_index == std::errc() && slash != end && *slash == '/') {
+    const auto [stop, bad_count] = std::from_chars(slash + 1, end, count);
+    if (bad_count == std::errc() && stop == end && index >= 1 && index <= count && count <= 1000000)
+      return {index, count};
+  }
+  throw SpecError("--shard '" + text + "': must be I/N with 1 <= I <= N");
+}
 
 /// What the runner took of its workers' time: starting them, pipes, disk, and waiting for the last one.
 std::string cost(const CampaignOptions& options, const CampaignResult& result) {
@@ -31,6 +44,7 @@ std::string cost(const CampaignOptions& options, const CampaignResult& result) {
 
 int run(Options options) {
   std::tie(options.campaign.first_seed, options.campaign.end_seed) = parse_seeds(options.seeds);
+  if (!options.shard.empty()) std::tie(options.campaign.shard, options.campaign.shards) = parse_shard(options.shard);
   options.campaign.limits.memory = 1e6 * options.memory_mb;
   StderrProgress progress;
   const CampaignResult result = run_campaign(options.campaign, "/proc/self/exe", progress);
@@ -67,6 +81,7 @@ Action add_campaign(CLI::App& app) {
   command->add_option("--out", options->campaign.out, "run folder")->required();
   add_sensor_option(*command, options->campaign.overrides.sensor);
   command->add_option("--workers", options->campaign.workers, "worker processes")->check(CLI::Range(1, 256));
+  command->add_option("--shard", options->shard, "I/N: of these seeds only those of part I (1 to N), chosen by hash");
   command->add_option("--timeout", options->campaign.limits.timeout, "s that one trial may take")
       ->check(CLI::Range(0.1, 1e6));
   command->add_option("--memory", options->memory_mb, "MB of memory that one worker may use")

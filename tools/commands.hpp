@@ -15,6 +15,7 @@ Action add_campaign(CLI::App& app);
 Action add_worker(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_compare(CLI::App& app);
+Action add_merge(CLI::App& app);
 Action add_gate(CLI::App& app);
 Action add_bench(CLI::App& app);
 Action add_calibrate(CLI::App& app);

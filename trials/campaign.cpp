@@ -20,6 +20,7 @@
 #include "evaluation/report.hpp"
 #include "trials/campaign_worker.hpp"
 #include "trials/environment.hpp"
+#include "trials/run_merge.hpp"
 #include "trials/run_store.hpp"
 #include "trials/scenario.hpp"
 
@@ -66,7 +67,7 @@ class Coordinator {
   CampaignResult run() {
     const std::set<std::uint64_t> done = store_.recorded();
     for (std::uint64_t seed = options_.first_seed; seed < options_.end_seed; ++seed)
-      if (!done.count(seed)) pending_.push_back({seed, 1, ""});
+      if (!done.count(seed) && in_shard(seed, options_.shard, options_.shards)) pending_.push_back({seed, 1, ""});
     if (options_.shuffle != 0) shuffle();
     total_ = pending_.size();
     const auto start = std::chrono::steady_clock::now();

@@ -20,11 +20,12 @@ struct CampaignOptions {
   std::string out;
   ScenarioOverrides overrides;
   std::uint64_t first_seed = 0, end_seed = 0;  ///< [first, end)
+  int shard = 1, shards = 1;                   ///< of these seeds: shard `shard` (1 ..) of so many (run_merge.hpp)
   int workers = 1;
   WorkerLimits limits;
   std::uint64_t shuffle = 0;  ///< 0: seeds in their order; else in one drawn from this
-  std::string plant;  ///< faults planted on purpose (planted_fault.hpp); empty: none
-  int pictured = 1;   ///< looks pictured per trial; failed picks always are; negative: no pictures at all
+  std::string plant;          ///< faults planted on purpose (planted_fault.hpp); empty: none
+  int pictured = 1;           ///< looks pictured per trial; failed picks always are; negative: no pictures at all
 };
 
 struct CampaignResult {

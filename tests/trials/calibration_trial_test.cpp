@@ -43,6 +43,10 @@ TEST_F(CalibrationTrial, FindsTheCameraFromRenderedImages) {
     EXPECT_GT(e.shift, 0.01 * expected) << to_string(method) << ": images are never exact";
     EXPECT_LT(e.shift, 4 * expected) << to_string(method);
   }
+  const auto shift = [&](std::uint64_t seed) {
+    return calibration_error(setup, no_errors(), CalibrationMethod::kChain, Seed{seed}).shift;
+  };
+  EXPECT_NE(shift(2), shift(1)) << "noise of their own";
 }
 
 TEST_F(CalibrationTrial, AShiftedPlateShiftsTheChainsCameraByAsMuchAndHandEyeNotAtAll) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "robot/inverse_kinematics.hpp"
 #include "trials/calibration/plate_images.hpp"
 
@@ -33,11 +34,15 @@ class BuiltCell {
 
  private:
   Pose seen(const Pose& X_CQ, const PinholeCamera& stated, const PinholeCamera& built) const {
-    const std::vector<SeenCorner> corners =
-        setup_.images ? setup_.images->corners(X_CQ, built) : disturbed_corners(X_CQ, built);
+    const std::vector<SeenCorner> corners = setup_.images ? found_corners(X_CQ, built) : disturbed_corners(X_CQ, built);
     const std::optional<Pose> pose = plate_pose(corners, setup_.plate, stated);
     if (!pose) throw SpecError("calibration: no marker of the plate is found in an image");
     return *pose;
+  }
+
+  /// Another calibration has another number, another image another pose: its noise is its own.
+  std::vector<SeenCorner> found_corners(const Pose& X_CQ, const PinholeCamera& built) const {
+    return setup_.images->corners(X_CQ, built, Seed{Hasher().add(X_CQ).add(normal_()).value()});
   }
 
   std::vector<SeenCorner> disturbed_corners(const Pose& X_CQ, const PinholeCamera& built) const {

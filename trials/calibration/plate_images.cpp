@@ -1,6 +1,5 @@
 #include "trials/calibration/plate_images.hpp"
 
-#include "core/hash.hpp"
 #include "core/primitive.hpp"
 
 namespace binpick {
@@ -21,17 +20,17 @@ PlateImages::PlateImages(const MarkerPlate& plate, const std::string& renderer)
 PlateImages::~PlateImages() = default;
 
 // The camera stands at the world's origin: only where the plate is before it counts.
-Image<std::uint8_t> PlateImages::image(const Pose& X_CQ, const PinholeCamera& camera) const {
+Image<std::uint8_t> PlateImages::image(const Pose& X_CQ, const PinholeCamera& camera, Seed seed) const {
   RenderScene scene;
   scene.items.push_back(item_);
   scene.items.back().X_WO = X_CQ;
   GreyCamera grey;
   grey.intrinsics = camera;
-  return capture_grey(*renderer_, scene, grey, {}, Seed{Hasher().add(X_CQ).value()});
+  return capture_grey(*renderer_, scene, grey, {}, seed);
 }
 
-std::vector<SeenCorner> PlateImages::corners(const Pose& X_CQ, const PinholeCamera& camera) const {
-  return find_corners(image(X_CQ, camera), plate_);
+std::vector<SeenCorner> PlateImages::corners(const Pose& X_CQ, const PinholeCamera& camera, Seed seed) const {
+  return find_corners(image(X_CQ, camera, seed), plate_);
 }
 
 }  // namespace binpick

@@ -18,9 +18,9 @@ class PlateImages {
   explicit PlateImages(const MarkerPlate& plate, const std::string& renderer = "osmesa");
   ~PlateImages();
 
-  Image<std::uint8_t> image(const Pose& X_CQ, const PinholeCamera& camera) const;
-  /// The corners that OpenCV finds in it. The image's noise is drawn from the pose's bits: another pose, another noise.
-  std::vector<SeenCorner> corners(const Pose& X_CQ, const PinholeCamera& camera) const;
+  Image<std::uint8_t> image(const Pose& X_CQ, const PinholeCamera& camera, Seed seed) const;
+  /// The corners that OpenCV finds in it.
+  std::vector<SeenCorner> corners(const Pose& X_CQ, const PinholeCamera& camera, Seed seed) const;
 
  private:
   MarkerPlate plate_;
