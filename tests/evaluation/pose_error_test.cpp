@@ -136,7 +136,7 @@ TEST(PoseError, LowerBoundIsOne) {
 class BopFigures : public testing::Test {
  protected:
   BopFigures() {
-    std::ifstream file(BINPICK_SOURCE_DIR "/tests/evaluation/data/bop_pose_errors.json");
+    std::ifstream file(BINPICK_SOURCE_DIR "/tests/evaluation/data/bop_metric_cases.json");
     figures_ = nlohmann::json::parse(file);
   }
 
