@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/camera.hpp"
 #include "evaluation/bop_symmetry.hpp"
 #include "tests/evaluation/example_parts.hpp"
 

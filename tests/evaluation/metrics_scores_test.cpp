@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "evaluation/metrics_bulk.hpp"
 #include "evaluation/metrics_curves.hpp"
@@ -88,6 +91,51 @@ TEST(AveragePrecision, IsTheMeanOverObjectsWithTargets) {
   const std::vector<ImageErrors> images = {image};
   EXPECT_EQ(detection_precision(images, mssd_of, 0.1), (std::map<int, double>{{1, 1.0}, {2, 0.0}}));
   EXPECT_DOUBLE_EQ(mean_average_precision(images, mssd_of, {0.1, 0.6}), (1 + 0.5) / 2);  // object 2 at 0.6 only
+}
+
+/// An image of data/bop_scores.json, as bop_score prepares it.
+ImageErrors image_of(const nlohmann::json& json, const nlohmann::json& diameters) {
+  ImageErrors image;
+  std::map<int, int> left, asked;
+  for (const auto& [object, count] : json["counts"].items()) left[std::stoi(object)] = asked[std::stoi(object)] = count;
+  for (const auto& one : json["instances"]) image.instances.push_back({one["object"], one["visible"], false});
+  std::vector<std::size_t> order(image.instances.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return image.instances[a].visible > image.instances[b].visible;
+  });
+  for (const std::size_t i : order) image.instances[i].target = left[image.instances[i].object]-- > 0;
+  std::vector<nlohmann::json> rows = json["estimates"];
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a["score"] > b["score"]; });
+  image.mssd = image.mssd_diameter = image.mspd = ErrorTable(rows.size(), order.size());
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const int object = rows[e]["object"];
+    image.estimates.push_back(
+        {object, rows[e]["score"], asked[object]-- > 0, diameters.contains(std::to_string(object))});
+    for (const auto& [i, errors] : rows[e]["errors"].items()) {
+      image.mssd.at(e, std::stoul(i)) = errors[0];
+      image.mssd_diameter.at(e, std::stoul(i)) =
+          errors[0].get<double>() / diameters[std::to_string(object)].get<double>();
+      image.mspd.at(e, std::stoul(i)) = errors[1].get<double>() * 640 / 848;
+    }
+  }
+  return image;
+}
+
+// Another program's scores of the same errors (the file says which).
+TEST(AverageRecall, AsAnotherProgramHasIt) {
+  std::ifstream file(BINPICK_SOURCE_DIR "/tests/evaluation/data/bop_scores.json");
+  const nlohmann::json data = nlohmann::json::parse(file), scores = data["scores"];
+  std::vector<ImageErrors> images;
+  for (const nlohmann::json& image : data["images"]) images.push_back(image_of(image, data["diameters"]));
+  ASSERT_EQ(images.size(), 2u);
+  const TableOf diameters = [](const ImageErrors& i) -> const ErrorTable& { return i.mssd_diameter; };
+  const TableOf pixels = [](const ImageErrors& i) -> const ErrorTable& { return i.mspd; };
+  EXPECT_NEAR(average_recall(images, diameters, tenths_of_a_half()), scores["bop19_average_recall_mssd"], 1e-12);
+  EXPECT_NEAR(average_recall(images, pixels, ten_steps_of(5)), scores["bop19_average_recall_mspd"], 1e-12);
+  EXPECT_NEAR(mean_average_precision(images, diameters, tenths_of_a_half()), scores["bop24_mAP_mssd"], 1e-12);
+  EXPECT_NEAR(mean_average_precision(images, pixels, ten_steps_of(5)), scores["bop24_mAP_mspd"], 1e-12);
+  EXPECT_NEAR(mean_average_precision(images, mssd_of, ten_steps_of(2)), scores["bop25_mAP_mm"], 1e-12);
 }
 
 TEST(Bulk, DuplicatesAreWrongAndHiddenOnesCountNeitherWay) {

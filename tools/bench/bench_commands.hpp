@@ -11,5 +11,6 @@ Action add_bench_physics(CLI::App& bench);
 Action add_bench_suction(CLI::App& bench);
 Action add_bench_heaps(CLI::App& bench);
 Action add_bench_planning(CLI::App& bench);
+Action add_bench_metrics(CLI::App& bench);
 
 }  // namespace binpick
