@@ -79,12 +79,13 @@ void measure(const BopImage& image, const std::vector<const BopEstimate*>& estim
     if (!errors.estimates[e].asked && !errors.estimates[e].kept) continue;
     const FieldModel& model = prepared.models.at(estimates[e]->object);
     const double farthest = std::max(0.5 * model.diameter(), 20 * kMillimetre) * (1 + 1e-9);
+    EstimateInImage in_image(estimates[e]->X_CO, model, image.camera);
     for (std::size_t i = 0; i < image.instances.size(); ++i) {
       if (image.instances[i].object != estimates[e]->object) continue;
       const Pose &X_CO_est = estimates[e]->X_CO, &X_CO_true = image.instances[i].X_CO;
       errors.mssd.at(e, i) = mssd_error(X_CO_est, X_CO_true, model, search, farthest);
       errors.mssd_diameter.at(e, i) = errors.mssd.at(e, i) / model.diameter();
-      errors.mspd.at(e, i) = per_640 * mspd_error(X_CO_est, X_CO_true, model, image.camera, search, 50.1 / per_640);
+      errors.mspd.at(e, i) = per_640 * in_image.mspd(X_CO_true, search, 50.1 / per_640);
       errors.surface.at(e, i) =
           model.surface().between(X_CO_est, X_CO_true) / (kBulkLimit * model.surface().ball_diameter());
     }
@@ -168,29 +169,27 @@ void localisation_scores(const std::vector<ImageErrors>& images, BopScore& score
   score.ar = (*score.ar_vsd + score.ar_mssd + score.ar_mspd) / 3;
 }
 
+/// The score over objects; each object's own goes where `own` says.
+double precision_of(const std::vector<ImageErrors>& images, const TableOf& table, const std::vector<double>& thresholds,
+                    double ObjectScore::*own, BopScore& score) {
+  const std::map<int, std::vector<double>> by_object = detection_precision(images, table, thresholds);
+  for (const auto& [object, precisions] : by_object)
+    score.objects[object].*own = mean_average_precision({{object, precisions}});
+  return mean_average_precision(by_object);
+}
+
 void detection_scores(const std::vector<ImageErrors>& images, BopScore& score) {
-  score.ap_mssd = mean_average_precision(images, mssd_diameter_of, tenths_of_a_half());
-  score.ap_mspd = mean_average_precision(images, mspd_of, ten_steps_of(5));
-  score.ap_mssd_mm = mean_average_precision(images, mssd_of, ten_steps_of(2 * kMillimetre));
+  score.ap_mssd = precision_of(images, mssd_diameter_of, tenths_of_a_half(), &ObjectScore::ap_mssd, score);
+  score.ap_mspd = precision_of(images, mspd_of, ten_steps_of(5), &ObjectScore::ap_mspd, score);
+  score.ap_mssd_mm = precision_of(images, mssd_of, ten_steps_of(2 * kMillimetre), &ObjectScore::ap_mssd_mm, score);
   score.ap = (score.ap_mssd + score.ap_mspd) / 2;
-  for (int k = 0; k < 10; ++k) {
-    const auto add = [&](const TableOf& table, double threshold, double ObjectScore::*sum) {
-      for (const auto& [object, ap] : detection_precision(images, table, threshold)) score.objects[object].*sum += ap;
-    };
-    add(mssd_diameter_of, tenths_of_a_half()[static_cast<std::size_t>(k)], &ObjectScore::ap_mssd);
-    add(mspd_of, ten_steps_of(5)[static_cast<std::size_t>(k)], &ObjectScore::ap_mspd);
-    add(mssd_of, ten_steps_of(2 * kMillimetre)[static_cast<std::size_t>(k)], &ObjectScore::ap_mssd_mm);
-  }
-  for (auto& [object, one] : score.objects) {
-    one.targets = judged_detections(images, mssd_diameter_of, kRight, object).second;
-    for (double ObjectScore::*sum : {&ObjectScore::ap_mssd, &ObjectScore::ap_mspd, &ObjectScore::ap_mssd_mm})
-      one.*sum /= 10;
-  }
+  for (const auto& [object, one] : detections_by_object(images, mssd_diameter_of, kRight))
+    if (one.targets > 0) score.objects[object].targets = one.targets;
   score.bulk = bulk_score(images);
   score.by_visibility = recall_by_visibility(images, mssd_diameter_of, kRight, visibility_edges());
-  const auto [judged, targets] = judged_detections(images, mssd_diameter_of, kRight);
-  score.curve = precision_recall(judged, targets);
-  score.calibration = score_calibration(judged);
+  const Detections all = detections(images, mssd_diameter_of, kRight);
+  score.curve = precision_recall(all.judged, all.targets);
+  score.calibration = score_calibration(all.judged);
 }
 
 }  // namespace

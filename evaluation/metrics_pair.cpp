@@ -7,40 +7,11 @@
 #include "evaluation/metric.hpp"
 
 namespace binpick {
-namespace {
-
-/// The member of the list whose twin of the truth is turned most like the estimate: a good first guess.
-std::size_t nearest_member(const Pose& X_CP_est, const Pose& X_CP_true, const std::vector<Pose>& group) {
-  const Eigen::Matrix3d R = X_CP_true.linear().transpose() * X_CP_est.linear();
-  std::size_t nearest = 0;
-  double best = -4;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const double trace = R.cwiseProduct(group[k].linear()).sum();
-    if (trace > best) {
-      best = trace;
-      nearest = k;
-    }
-  }
-  return nearest;
-}
-
-/// The largest squared distance of a vertex, or what it is known to reach once that is `enough`.
-double largest_squared(const Pose& X_CP_est, const Pose& X_CP_twin, const std::vector<Eigen::Vector3d>& points,
-                       double enough) {
-  const Eigen::Matrix3d R = X_CP_est.linear() - X_CP_twin.linear();
-  const Eigen::Vector3d t = X_CP_est.translation() - X_CP_twin.translation();
-  double largest = 0;
-  for (const Eigen::Vector3d& x : points) {
-    largest = std::max(largest, (R * x + t).squaredNorm());
-    if (largest >= enough) break;
-  }
-  return largest;
-}
 
 /// Projections of an estimate's vertices, and the largest distance of a twin's from them.
-class Projections {
+class ProjectedVertices {
  public:
-  Projections(const Pose& X_CP_est, const std::vector<Eigen::Vector3d>& points, const PinholeCamera& camera)
+  ProjectedVertices(const Pose& X_CP_est, const std::vector<Eigen::Vector3d>& points, const PinholeCamera& camera)
       : camera_(camera) {
     seen_.reserve(points.size());
     for (const Eigen::Vector3d& x : points) {
@@ -75,7 +46,7 @@ class Projections {
   }
 
   /// Only the vertices that can become the farthest while the twin turns on from one pose to the other, or as far back.
-  Projections near_the_largest(const Pose& X_CP_twin, const Pose& X_CP_turned) const {
+  ProjectedVertices near_the_largest(const Pose& X_CP_twin, const Pose& X_CP_turned) const {
     double largest = 0, motion = 0;
     std::vector<double> distance;
     for (const Seen& vertex : seen_) {
@@ -84,7 +55,7 @@ class Projections {
       largest = std::max(largest, distance.back());
       motion = std::max(motion, (camera_.project(X_CP_turned * vertex.x) - there).norm());
     }
-    Projections few(*this);
+    ProjectedVertices few(*this);
     few.seen_.clear();
     few.last_ = 0;
     for (std::size_t i = 0; i < seen_.size(); ++i)
@@ -107,6 +78,36 @@ class Projections {
   std::size_t last_ = 0;
   bool in_front_ = true;
 };
+
+namespace {
+
+/// The member of the list whose twin of the truth is turned most like the estimate: a good first guess.
+std::size_t nearest_member(const Pose& X_CP_est, const Pose& X_CP_true, const std::vector<Pose>& group) {
+  const Eigen::Matrix3d R = X_CP_true.linear().transpose() * X_CP_est.linear();
+  std::size_t nearest = 0;
+  double best = -4;
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const double trace = R.cwiseProduct(group[k].linear()).sum();
+    if (trace > best) {
+      best = trace;
+      nearest = k;
+    }
+  }
+  return nearest;
+}
+
+/// The largest squared distance of a vertex, or what it is known to reach once that is `enough`.
+double largest_squared(const Pose& X_CP_est, const Pose& X_CP_twin, const std::vector<Eigen::Vector3d>& points,
+                       double enough) {
+  const Eigen::Matrix3d R = X_CP_est.linear() - X_CP_twin.linear();
+  const Eigen::Vector3d t = X_CP_est.translation() - X_CP_twin.translation();
+  double largest = 0;
+  for (const Eigen::Vector3d& x : points) {
+    largest = std::max(largest, (R * x + t).squaredNorm());
+    if (largest >= enough) break;
+  }
+  return largest;
+}
 
 /// Least over the group of what `largest` gives; the best member so far is told to it, so that it may stop early.
 template <class Largest>
@@ -148,7 +149,7 @@ double least_turn(double half, const Value& value) {
 }
 
 /// The best of the toolkit's turns and of the twin nearest in rotation, turned on within a step of the toolkit.
-double refined_mspd(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model, Projections& seen,
+double refined_mspd(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model, ProjectedVertices& seen,
                     double enough) {
   constexpr double kStep = 2 * M_PI / 315;
   Pose best = nearest_equivalent(X_CP_true, X_CP_est, model.symmetry());
@@ -163,13 +164,13 @@ double refined_mspd(const Pose& X_CP_est, const Pose& X_CP_true, const FieldMode
   }
   if (least > 4 * enough) return least;  // a step moves no vertex by half of what the part measures in the image
   const Symmetry::Axis& axis = *model.symmetry().axis;
-  Projections few = seen.near_the_largest(best, best * turn_about(axis, kStep));
+  ProjectedVertices few = seen.near_the_largest(best, best * turn_about(axis, kStep));
   const double turn =
       least_turn(kStep, [&](double angle) { return few.largest_squared(best * turn_about(axis, angle), kNoLimit); });
   return std::min(least, seen.largest_squared(best * turn_about(axis, turn), kNoLimit));
 }
 
-double mspd_of(Projections& seen, const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model,
+double mspd_of(ProjectedVertices& seen, const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model,
                SymmetrySearch search, double limit_px) {
   if (!seen.in_front()) return kNoLimit;
   const double enough = limit_px * limit_px;
@@ -221,13 +222,24 @@ double mssd_error(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel&
 
 double mspd_error(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model, const PinholeCamera& camera,
                   SymmetrySearch search, double limit_px) {
-  Projections seen(X_CP_est, model.vertices_P(), camera);
+  ProjectedVertices seen(X_CP_est, model.vertices_P(), camera);
   return mspd_of(seen, X_CP_est, X_CP_true, model, search, limit_px);
+}
+
+EstimateInImage::EstimateInImage(const Pose& X_CP_est, const FieldModel& model, const PinholeCamera& camera)
+    : X_CP_est_(X_CP_est),
+      model_(&model),
+      seen_(std::make_unique<ProjectedVertices>(X_CP_est, model.vertices_P(), camera)) {}
+
+EstimateInImage::~EstimateInImage() = default;
+
+double EstimateInImage::mspd(const Pose& X_CP_true, SymmetrySearch search, double limit_px) {
+  return mspd_of(*seen_, X_CP_est_, X_CP_true, *model_, search, limit_px);
 }
 
 PairErrors pair_errors(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model,
                        const PinholeCamera& camera, SymmetrySearch search) {
-  Projections seen(X_CP_est, model.vertices_P(), camera);
+  ProjectedVertices seen(X_CP_est, model.vertices_P(), camera);
   PairErrors errors;
   errors.add = add_error(X_CP_est, X_CP_true, model);
   errors.adi = adi_error(X_CP_est, X_CP_true, model);

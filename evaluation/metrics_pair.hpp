@@ -4,12 +4,15 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 
 #include "core/camera.hpp"
 #include "core/pose.hpp"
 #include "evaluation/metrics_model.hpp"
 
 namespace binpick {
+
+class ProjectedVertices;
 
 struct PairErrors {
   double add = 0;            ///< m, mean distance of corresponding vertices; knows no symmetry
@@ -37,5 +40,20 @@ double mssd_error(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel&
 /// turns about a continuous axis by golden section; a sphere is taken turned as the estimate is.
 double mspd_error(const Pose& X_CP_est, const Pose& X_CP_true, const FieldModel& model, const PinholeCamera& camera,
                   SymmetrySearch search, double limit_px = kNoLimit);
+
+/// The same for one estimate against many truths: its vertices are projected once. The model must outlive it.
+class EstimateInImage {
+ public:
+  EstimateInImage(const Pose& X_CP_est, const FieldModel& model, const PinholeCamera& camera);
+  ~EstimateInImage();
+  EstimateInImage(const EstimateInImage&) = delete;
+  EstimateInImage& operator=(const EstimateInImage&) = delete;
+  double mspd(const Pose& X_CP_true, SymmetrySearch search, double limit_px = kNoLimit);
+
+ private:
+  Pose X_CP_est_;
+  const FieldModel* model_;
+  std::unique_ptr<ProjectedVertices> seen_;
+};
 
 }  // namespace binpick

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <set>
 
 #include "core/check.hpp"
 
@@ -27,12 +26,8 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-std::set<int> objects_with_targets(std::span<const ImageErrors> images) {
-  std::set<int> objects;
-  for (const ImageErrors& image : images)
-    for (const ImageErrors::Instance& instance : image.instances)
-      if (instance.visible >= kLeastVisible) objects.insert(instance.object);
-  return objects;
+void sort_by_score(std::vector<Judged>& judged) {
+  std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) { return a.score > b.score; });
 }
 
 }  // namespace
@@ -107,40 +102,44 @@ double interpolated_precision(const std::vector<Judged>& judged, std::size_t tar
   return sum / 101;
 }
 
-std::pair<std::vector<Judged>, std::size_t> judged_detections(std::span<const ImageErrors> images, const TableOf& table,
-                                                              double threshold, std::optional<int> object) {
-  std::vector<Judged> judged;
-  std::size_t targets = 0;
+std::map<int, Detections> detections_by_object(std::span<const ImageErrors> images, const TableOf& table,
+                                               double threshold) {
+  std::map<int, Detections> found;
   for (const ImageErrors& image : images) {
     for (const ImageErrors::Instance& instance : image.instances)
-      targets += (!object || instance.object == *object) && instance.visible >= kLeastVisible ? 1 : 0;
+      found[instance.object].targets += instance.visible >= kLeastVisible ? 1 : 0;
     const Matches matches = match_greedily(image, table(image), threshold, Task::kDetection);
     for (const std::size_t e : by_score(image.estimates)) {
       const ImageErrors::Estimate& estimate = image.estimates[e];
-      if (!estimate.kept || (object && estimate.object != *object)) continue;
+      if (!estimate.kept) continue;
       if (matches[e] && image.instances[*matches[e]].visible < kLeastVisible) continue;
-      judged.push_back({estimate.score, matches[e].has_value()});
+      found[estimate.object].judged.push_back({estimate.score, matches[e].has_value()});
     }
   }
-  std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) { return a.score > b.score; });
-  return {judged, targets};
+  for (auto& [object, one] : found) sort_by_score(one.judged);
+  return found;
 }
 
-std::map<int, double> detection_precision(std::span<const ImageErrors> images, const TableOf& table, double threshold) {
-  std::map<int, double> precision;
-  for (const int object : objects_with_targets(images)) {
-    const auto [judged, targets] = judged_detections(images, table, threshold, object);
-    precision[object] = interpolated_precision(judged, targets);
+Detections detections(std::span<const ImageErrors> images, const TableOf& table, double threshold) {
+  Detections all;
+  for (const auto& [object, one] : detections_by_object(images, table, threshold)) {
+    all.judged.insert(all.judged.end(), one.judged.begin(), one.judged.end());
+    all.targets += one.targets;
   }
+  sort_by_score(all.judged);
+  return all;
+}
+
+std::map<int, std::vector<double>> detection_precision(std::span<const ImageErrors> images, const TableOf& table,
+                                                       const std::vector<double>& thresholds) {
+  std::map<int, std::vector<double>> precision;
+  for (const double threshold : thresholds)
+    for (const auto& [object, one] : detections_by_object(images, table, threshold))
+      if (one.targets > 0) precision[object].push_back(interpolated_precision(one.judged, one.targets));
   return precision;
 }
 
-double mean_average_precision(std::span<const ImageErrors> images, const TableOf& table,
-                              const std::vector<double>& thresholds) {
-  std::map<int, std::vector<double>> by_object;
-  for (const double threshold : thresholds)
-    for (const auto& [object, precision] : detection_precision(images, table, threshold))
-      by_object[object].push_back(precision);
+double mean_average_precision(const std::map<int, std::vector<double>>& by_object) {
   std::vector<double> means;
   for (const auto& [object, precisions] : by_object) means.push_back(mean(precisions));
   return mean(means);

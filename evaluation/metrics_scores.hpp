@@ -71,12 +71,12 @@ double localisation_recall(std::span<const ImageErrors> images, const TableOf& t
 /// Mean of it over thresholds.
 double average_recall(std::span<const ImageErrors> images, const TableOf& table, const std::vector<double>& thresholds);
 
-/// AP of every object with a target (visible >= 0.1) at one threshold: mean over 101 recalls of the best precision at
+/// AP of every object with a target (visible >= 0.1), at each threshold: mean over 101 recalls of the best precision at
 /// that recall or a higher one. Estimates matched to a less visible instance are left out.
-std::map<int, double> detection_precision(std::span<const ImageErrors> images, const TableOf& table, double threshold);
+std::map<int, std::vector<double>> detection_precision(std::span<const ImageErrors> images, const TableOf& table,
+                                                       const std::vector<double>& thresholds);
 /// Mean over thresholds, then over objects.
-double mean_average_precision(std::span<const ImageErrors> images, const TableOf& table,
-                              const std::vector<double>& thresholds);
+double mean_average_precision(const std::map<int, std::vector<double>>& by_object);
 
 /// An estimate that counts, and whether it was right.
 struct Judged {
@@ -86,9 +86,15 @@ struct Judged {
 /// `judged` by descending score.
 double interpolated_precision(const std::vector<Judged>& judged, std::size_t targets);
 
-/// What detection counts of all objects (or one) at a threshold, by descending score, and how many targets there are.
-std::pair<std::vector<Judged>, std::size_t> judged_detections(std::span<const ImageErrors> images, const TableOf& table,
-                                                              double threshold,
-                                                              std::optional<int> object = std::nullopt);
+/// What detection counts, by descending score, and how many targets there are.
+struct Detections {
+  std::vector<Judged> judged;
+  std::size_t targets = 0;
+};
+/// Of all objects together.
+Detections detections(std::span<const ImageErrors> images, const TableOf& table, double threshold);
+/// Of each object that an image holds.
+std::map<int, Detections> detections_by_object(std::span<const ImageErrors> images, const TableOf& table,
+                                               double threshold);
 
 }  // namespace binpick

@@ -76,7 +76,7 @@ TEST(AveragePrecision, HiddenInstancesCountNeitherWay) {
   ImageErrors image = image_of({0.9, 0.8, 0.7}, {{0.0, kInf}, {kInf, 0.0}, {kInf, kInf}}, 2);
   image.instances[1].visible = 0.09;
   const std::vector<ImageErrors> images = {image};
-  const auto [judged, targets] = judged_detections(images, mssd_of, 0.1);
+  const auto [judged, targets] = detections(images, mssd_of, 0.1);
   EXPECT_EQ(targets, 1u);
   ASSERT_EQ(judged.size(), 2u);  // the one at the hidden instance is left out
   EXPECT_TRUE(judged[0].right);
@@ -89,8 +89,9 @@ TEST(AveragePrecision, IsTheMeanOverObjectsWithTargets) {
   image.instances[2].object = image.estimates[2].object = 3;
   image.instances[2].visible = 0.05;
   const std::vector<ImageErrors> images = {image};
-  EXPECT_EQ(detection_precision(images, mssd_of, 0.1), (std::map<int, double>{{1, 1.0}, {2, 0.0}}));
-  EXPECT_DOUBLE_EQ(mean_average_precision(images, mssd_of, {0.1, 0.6}), (1 + 0.5) / 2);  // object 2 at 0.6 only
+  EXPECT_EQ(detection_precision(images, mssd_of, {0.1}), (std::map<int, std::vector<double>>{{1, {1.0}}, {2, {0.0}}}));
+  EXPECT_DOUBLE_EQ(mean_average_precision(detection_precision(images, mssd_of, {0.1, 0.6})),
+                   (1 + 0.5) / 2);  // object 2 at 0.6 only
 }
 
 /// An image of data/bop_scores.json, as bop_score prepares it.
@@ -133,9 +134,12 @@ TEST(AverageRecall, AsAnotherProgramHasIt) {
   const TableOf pixels = [](const ImageErrors& i) -> const ErrorTable& { return i.mspd; };
   EXPECT_NEAR(average_recall(images, diameters, tenths_of_a_half()), scores["bop19_average_recall_mssd"], 1e-12);
   EXPECT_NEAR(average_recall(images, pixels, ten_steps_of(5)), scores["bop19_average_recall_mspd"], 1e-12);
-  EXPECT_NEAR(mean_average_precision(images, diameters, tenths_of_a_half()), scores["bop24_mAP_mssd"], 1e-12);
-  EXPECT_NEAR(mean_average_precision(images, pixels, ten_steps_of(5)), scores["bop24_mAP_mspd"], 1e-12);
-  EXPECT_NEAR(mean_average_precision(images, mssd_of, ten_steps_of(2)), scores["bop25_mAP_mm"], 1e-12);
+  EXPECT_NEAR(mean_average_precision(detection_precision(images, diameters, tenths_of_a_half())),
+              scores["bop24_mAP_mssd"], 1e-12);
+  EXPECT_NEAR(mean_average_precision(detection_precision(images, pixels, ten_steps_of(5))), scores["bop24_mAP_mspd"],
+              1e-12);
+  EXPECT_NEAR(mean_average_precision(detection_precision(images, mssd_of, ten_steps_of(2))), scores["bop25_mAP_mm"],
+              1e-12);
 }
 
 TEST(Bulk, DuplicatesAreWrongAndHiddenOnesCountNeitherWay) {
