@@ -106,8 +106,8 @@ PinholeCamera image_size(const BopLayout& layout, const std::string& depth_file)
     const Json camera = json_of(layout, name);
     if (!camera.top().has("width")) continue;
     size.width = camera.top().at("width").integer(), size.height = camera.top().at("height").integer();
-    if (size.width < 1 || size.height < 1 || size.width > 16384 || size.height > 16384)
-      camera.top().fail("width, height: must lie in 1 .. 16384");
+    if (size.width < 1 || size.height < 1 || size.width > 8192 || size.height > 8192)
+      camera.top().fail("width, height: must lie in 1 .. 8192");
     return size;
   }
   if (depth_file.empty()) throw AssetError(layout.inside("camera.json") + ": is missing: how large are the images?");

@@ -156,7 +156,7 @@ const ErrorTable& mspd_of(const ImageErrors& image) { return image.mspd; }
 void localisation_scores(const std::vector<ImageErrors>& images, BopScore& score) {
   for (const ImageErrors& image : images)
     for (const auto& instance : image.instances) score.targets += instance.target ? 1 : 0;
-  score.ar_mssd = average_recall(images, mssd_diameter_of, tenths_of_a_half());
+  score.ar_mssd = average_recall(images, mssd_diameter_of, bop_thresholds());
   score.ar_mspd = average_recall(images, mspd_of, ten_steps_of(5));
   const bool everywhere = std::all_of(images.begin(), images.end(), [](const auto& i) { return !i.vsd.empty(); });
   if (images.empty() || !everywhere) return;
@@ -164,7 +164,7 @@ void localisation_scores(const std::vector<ImageErrors>& images, BopScore& score
   double sum = 0;
   for (std::size_t k = 0; k < taus; ++k)
     sum += average_recall(
-        images, [k](const ImageErrors& image) -> const ErrorTable& { return image.vsd[k]; }, tenths_of_a_half());
+        images, [k](const ImageErrors& image) -> const ErrorTable& { return image.vsd[k]; }, bop_thresholds());
   score.ar_vsd = sum / static_cast<double>(taus);
   score.ar = (*score.ar_vsd + score.ar_mssd + score.ar_mspd) / 3;
 }
@@ -179,7 +179,7 @@ double precision_of(const std::vector<ImageErrors>& images, const TableOf& table
 }
 
 void detection_scores(const std::vector<ImageErrors>& images, BopScore& score) {
-  score.ap_mssd = precision_of(images, mssd_diameter_of, tenths_of_a_half(), &ObjectScore::ap_mssd, score);
+  score.ap_mssd = precision_of(images, mssd_diameter_of, bop_thresholds(), &ObjectScore::ap_mssd, score);
   score.ap_mspd = precision_of(images, mspd_of, ten_steps_of(5), &ObjectScore::ap_mspd, score);
   score.ap_mssd_mm = precision_of(images, mssd_of, ten_steps_of(2 * kMillimetre), &ObjectScore::ap_mssd_mm, score);
   score.ap = (score.ap_mssd + score.ap_mspd) / 2;

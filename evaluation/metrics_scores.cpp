@@ -35,7 +35,7 @@ void sort_by_score(std::vector<Judged>& judged) {
 ErrorTable::ErrorTable(std::size_t estimates, std::size_t instances)
     : instances_(instances), values_(estimates * instances, std::numeric_limits<double>::infinity()) {}
 
-std::vector<double> tenths_of_a_half() { return ten_steps_of(0.05); }
+std::vector<double> bop_thresholds() { return ten_steps_of(0.05); }
 
 std::vector<double> ten_steps_of(double first) {
   std::vector<double> steps;

@@ -48,12 +48,12 @@ struct ImageErrors {
   std::vector<ErrorTable> vsd;  ///< one a tau; estimates that localisation does not look at are left out
 };
 
-/// BOP25 counts as found what BOP19 has to find and the other way round: both leave out what is less visible.
+/// What is less visible is no target, neither of localisation nor of detection.
 inline constexpr double kLeastVisible = 0.1;
 inline constexpr std::size_t kMostPerImage = 100;  ///< estimates that detection looks at (200 for XYZ-IBD)
 
 /// 0.05, 0.10 .. 0.50, as the toolkit's arange gives them.
-std::vector<double> tenths_of_a_half();
+std::vector<double> bop_thresholds();
 /// {first, 2 first, .. 10 first}
 std::vector<double> ten_steps_of(double first);
 

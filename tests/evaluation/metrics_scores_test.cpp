@@ -60,8 +60,8 @@ TEST(AverageRecall, CountsTargetsOverImages) {
   EXPECT_DOUBLE_EQ(localisation_recall(images, mssd_of, 0.08), 1.0 / 5);
   EXPECT_DOUBLE_EQ(localisation_recall(images, mssd_of, 0.5), 3.0 / 5);
   // 0.05: 0; 0.10: 1, 0.15 .. 0.35: 2 (0.35 is not below 0.35, but for rounding), 0.40 .. 0.50: 3
-  const double at_35 = localisation_recall(images, mssd_of, tenths_of_a_half()[6]);
-  EXPECT_NEAR(average_recall(images, mssd_of, tenths_of_a_half()), (0 + 0.2 + 4 * 0.4 + at_35 + 3 * 0.6) / 10, 1e-12);
+  const double at_35 = localisation_recall(images, mssd_of, bop_thresholds()[6]);
+  EXPECT_NEAR(average_recall(images, mssd_of, bop_thresholds()), (0 + 0.2 + 4 * 0.4 + at_35 + 3 * 0.6) / 10, 1e-12);
 }
 
 // The toolkit's own example: right are the 2nd, 3rd and 5th of six estimates, of six targets.
@@ -132,9 +132,9 @@ TEST(AverageRecall, AsAnotherProgramHasIt) {
   ASSERT_EQ(images.size(), 2u);
   const TableOf diameters = [](const ImageErrors& i) -> const ErrorTable& { return i.mssd_diameter; };
   const TableOf pixels = [](const ImageErrors& i) -> const ErrorTable& { return i.mspd; };
-  EXPECT_NEAR(average_recall(images, diameters, tenths_of_a_half()), scores["bop19_average_recall_mssd"], 1e-12);
+  EXPECT_NEAR(average_recall(images, diameters, bop_thresholds()), scores["bop19_average_recall_mssd"], 1e-12);
   EXPECT_NEAR(average_recall(images, pixels, ten_steps_of(5)), scores["bop19_average_recall_mspd"], 1e-12);
-  EXPECT_NEAR(mean_average_precision(detection_precision(images, diameters, tenths_of_a_half())),
+  EXPECT_NEAR(mean_average_precision(detection_precision(images, diameters, bop_thresholds())),
               scores["bop24_mAP_mssd"], 1e-12);
   EXPECT_NEAR(mean_average_precision(detection_precision(images, pixels, ten_steps_of(5))), scores["bop24_mAP_mspd"],
               1e-12);
