@@ -220,6 +220,17 @@ std::vector<Candidate> PpfEstimator::scored(const Scene& scene, std::vector<Cand
   return standing;
 }
 
+/// Takes back the poses of parts of which the view shows nothing but doubtful ones. Says so when none is left.
+std::string PpfEstimator::take_back(std::vector<Candidate>& poses) const {
+  std::vector<double> absent(parts_.size(), 1);  // the probability that none of a part's poses is right
+  for (const Candidate& c : poses) absent[c.part] *= 1 - std::min(1.0, either(c));
+  const std::size_t before = poses.size();
+  std::erase_if(poses, [&](const Candidate& c) { return 1 - absent[c.part] < settings_.accept.least_presence; });
+  if (before == 0 || !poses.empty()) return "";
+  return "nothing but " + std::to_string(before) +
+         " doubtful pose(s): too little to say that a wanted part is there (accept.least_presence)";
+}
+
 void PpfEstimator::prepare(std::span<const Part> parts) { prepare_with(parts, DiskCache::from_environment()); }
 
 void PpfEstimator::prepare_with(std::span<const Part> parts, const DiskCache& cache) {
@@ -244,12 +255,15 @@ EstimateResult PpfEstimator::estimate_with(const SceneView& view, std::vector<Sc
   result.wall.preprocess = stage.lap();
   std::vector<Candidate> standing =
       settings_.search.enough > 0 ? first_poses(scene, result.wall) : all_poses(scene, result.wall);
-  for (const Candidate& c : scored(scene, std::move(standing))) {
+  standing = scored(scene, std::move(standing));
+  result.message = take_back(standing);
+  for (const Candidate& c : standing) {
     result.estimates.push_back(to_estimate(c, parts_[c.part]));
     if (features) features->push_back(score_features(scene, parts_[c.part].surface, c, parts_[c.part].twists));
   }
   result.status = result.estimates.empty() ? EstimateStatus::kNothingFound : EstimateStatus::kFound;
-  if (result.estimates.empty()) result.message = why_nothing(scene, parts_, settings_.preprocess.headroom);
+  if (result.estimates.empty() && result.message.empty())
+    result.message = why_nothing(scene, parts_, settings_.preprocess.headroom);
   result.wall.total = total.lap();
   return result;
 }

@@ -44,6 +44,7 @@ class PpfEstimator : public PoseEstimator {
                        std::vector<Candidate>& standing) const;
   void judge(const Scene& scene, std::vector<Candidate>& standing) const;
   std::vector<Candidate> scored(const Scene& scene, std::vector<Candidate> standing) const;
+  std::string take_back(std::vector<Candidate>& poses) const;
   bool enough(const std::vector<Candidate>& standing) const;
   PpfSettings settings_;
   std::vector<PreparedPart> parts_;

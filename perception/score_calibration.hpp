@@ -1,6 +1,8 @@
 // The score of a pose: the probability that it is right (MSSD below a tenth of the diameter), with one meaning for
 // every part and sensor. A logistic model on what the drawn part says of itself:
-//   p = 1 / (1 + exp(-sum_k w_k f_k)),  halved for an ambiguous pose (two twins, and no way to tell)
+//   p = 1 / (1 + exp(-sum_k w_k t_k)),  halved for an ambiguous pose (two twins, and no way to tell)
+// Its terms t are the features f and, nearly all of them once more, f times the sensor's noise: a ragged outline or a
+// normal that turns elsewhere means little under a noisy sensor and gives a wrong pose away under a quiet one.
 // The weights stand in score_calibration.cpp with the command that made them: heaps of seeds below 1000, all shipped
 // parts, four sensors, acceptance thresholds opened so that wrong poses are seen, too.
 #pragma once
@@ -17,6 +19,11 @@ namespace binpick {
 constexpr std::size_t kScoreFeatures = 21;
 using ScoreFeatures = std::array<double, kScoreFeatures>;
 const std::array<std::string, kScoreFeatures>& score_feature_names();
+
+constexpr std::size_t kScoreTerms = 39;
+using ScoreTerms = std::array<double, kScoreTerms>;
+/// The features, and those that the noise gives another meaning times (noise - that of a D435 on a part of 100 mm).
+ScoreTerms score_terms(const ScoreFeatures& features);
 
 /// `symmetry_twists`: directions of P in which a symmetric part has no pose to be known (translation, rotation).
 ScoreFeatures score_features(const Scene& scene, const SurfaceModel& model, const Candidate& candidate,

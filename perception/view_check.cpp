@@ -107,12 +107,15 @@ void AcceptConfig::visit(ConfigVisitor& v) {
   v.field("largest_side_leak", largest_side_leak, Unit::kNone,
           "the same of one side of the outline, where no other pose explains what follows");
   v.field("least_score", least_score, Unit::kNone, "least probability of being right of what is returned");
+  v.field("least_presence", least_presence, Unit::kNone,
+          "least probability, from all its poses, that a part is in view at all; below, no pose of it is returned");
 }
 
 void AcceptConfig::validate() const {
   const auto share = [](double x) { return x >= 0 && x <= 1; };
   if (!share(least_quality) || !share(sure_quality) || !share(least_explained) || !share(largest_leak) ||
-      !share(largest_side_leak) || !share(least_own) || !share(largest_overlap) || !share(least_score))
+      !share(largest_side_leak) || !share(least_own) || !share(largest_overlap) || !share(least_score) ||
+      !share(least_presence))
     throw SpecError("accept: every share must lie between 0 and 1");
   if (least_pixels < 1) throw SpecError("accept.least_pixels: must be at least 1");
 }

@@ -26,6 +26,9 @@ struct AcceptConfig {
 
   double largest_side_leak = 0.7;  ///< of one side of the outline, at which the surface goes on unexplained
   double least_score = 0.5;        ///< probability that the pose, or its twin, is right: below, it is not returned
+  /// Probability that the view holds the part at all, 1 - prod(1 - score) over its poses: below, none is returned. A
+  /// heap of the part shows several, or one that is plain to see; what resembles the part shows a doubtful one.
+  double least_presence = 0.92;
 
   void visit(ConfigVisitor& v);
   void validate() const;

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t kBlock = 16'000'000;  // bytes
 
-[[noreturn]] void leak() {
+constexpr int kDrip = 15;  // blocks
+
+void leak_block() {
   static std::vector<std::unique_ptr<char[]>> lost;
-  for (;;) {
-    lost.push_back(std::make_unique<char[]>(kBlock));
-    std::memset(lost.back().get(), 1, kBlock);
-  }
+  lost.push_back(std::make_unique<char[]>(kBlock));
+  std::memset(lost.back().get(), 1, kBlock);
 }
 
 void commit(const std::string& kind) {
@@ -33,7 +33,9 @@ void commit(const std::string& kind) {
   } else if (kind == "hang") {
     for (;;) ::pause();
   } else if (kind == "leak") {
-    leak();
+    for (;;) leak_block();
+  } else if (kind == "drip") {
+    for (int i = 0; i < kDrip; ++i) leak_block();
   } else if (kind == "exit") {
     ::_exit(0);
   } else if (kind == "garbage") {

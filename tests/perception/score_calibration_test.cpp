@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "perception/pose_estimator.hpp"
@@ -38,6 +39,33 @@ TEST(Score, FallsWithContradictionsLeaksAndOverlap) {
   worse = good();
   worse[7] = 0.3;  // three tenths of it inside another pose
   EXPECT_LT(calibrated_score(worse, false), clear);
+}
+
+double log_odds(const ScoreFeatures& features) {
+  const double p = calibrated_score(features, false);
+  return std::log(p / (1 - p));
+}
+
+TEST(Score, ContradictionsTellMoreUnderAQuietSensor) {
+  const auto drop = [](double noise) {
+    ScoreFeatures clean = good(), ragged = good();
+    clean[20] = ragged[20] = noise;
+    ragged[1] = 1.2;  // a quarter of what can be judged contradicts
+    return log_odds(clean) - log_odds(ragged);
+  };
+  EXPECT_GT(drop(-1.9), 1.3 * drop(-1.5));
+}
+
+TEST(Score, TermsAreTheFeaturesAndTheirProductsWithTheNoise) {
+  ScoreFeatures f = good();
+  f[20] = -1.6;  // the usual noise: every product vanishes
+  const ScoreTerms usual = score_terms(f);
+  for (std::size_t k = 0; k < kScoreFeatures; ++k) EXPECT_DOUBLE_EQ(usual[k], f[k]) << k;
+  for (std::size_t k = kScoreFeatures; k < kScoreTerms; ++k) EXPECT_NEAR(usual[k], 0, 1e-12) << k;
+  f[20] = -1.1;
+  const ScoreTerms noisy = score_terms(f);
+  EXPECT_NEAR(noisy[kScoreFeatures], 0.5 * f[1], 1e-12);    // the first product is that of the quality
+  EXPECT_NEAR(noisy[kScoreTerms - 1], 0.5 * f[19], 1e-12);  // and the last that of the part's size
 }
 
 TEST(Score, CornersDeviateByTheTranslationAndByTheTurnTimesTheLever) {

@@ -97,6 +97,39 @@ TEST(CampaignFaults, AFullDiskEndsItAndTheRestIsDoneLater) {
   EXPECT_EQ(read_file(folder.path("run/canonical.jsonl")), read_file(folder.path("whole/canonical.jsonl")));
 }
 
+// Errors that a failing or read-only disk gives, put between the program and the kernel by bad_disk.c. (A write that
+// fails: the full disk above.)
+TEST(CampaignFaults, ADiskThatFailsEndsItAndTheRestIsDoneLater) {
+  const TemporaryFolder folder;
+  const std::string campaign = "campaign " + tiny_scene(folder) + " --seeds 1:5 --pictured -1 --out ";
+  ASSERT_EQ(run_program(campaign + folder.path("whole")).code, 0);
+  const std::map<std::string, std::string> plans = {{"fsync:5:3:records.jsonl", "Input/output error"},
+                                                    {"open:30:3:records.jsonl", "Read-only file system"}};
+  for (const auto& [plan, words] : plans) {
+    const std::string run = folder.path("run_" + plan.substr(0, 4));
+    const ProgramRun bad = run_program(campaign + run, "export LD_PRELOAD=" BINPICK_BAD_DISK " BAD_DISK=" + plan);
+    EXPECT_EQ(bad.code, 6) << plan << "\n" << bad.err;
+    EXPECT_THAT(bad.err, HasSubstr("records.jsonl")) << plan;
+    EXPECT_THAT(bad.err, HasSubstr(words)) << plan;
+    EXPECT_LT(by_seed(run + "/records/records.jsonl").size(), 4u) << plan;
+    const ProgramRun rest = run_program(campaign + run);
+    EXPECT_EQ(rest.code, 0) << plan << "\n" << rest.err;
+    EXPECT_EQ(read_file(run + "/canonical.jsonl"), read_file(folder.path("whole/canonical.jsonl"))) << plan;
+  }
+}
+
+// Workers that lose 240 MB with every trial are replaced before they reach 1000 MB: no trial pays for it.
+TEST(CampaignFaults, WhatLeaksSlowlyIsReplacedBetweenTrials) {
+  const TemporaryFolder folder;
+  const std::string campaign = "campaign " + tiny_scene(folder) + " --seeds 1:6 --pictured -1 --memory 1000 --out ";
+  ASSERT_EQ(run_program(campaign + folder.path("sound")).code, 0);
+  const ProgramRun run = run_program(campaign + folder.path("run") + " --plant drip:1,drip:2,drip:3,drip:4,drip:5");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(read_file(folder.path("run/canonical.jsonl")), read_file(folder.path("sound/canonical.jsonl")));
+  for (const auto& [seed, record] : by_seed(folder.path("run/records/records.jsonl")))
+    EXPECT_EQ(record.value("attempts", 1), 1) << seed;
+}
+
 TEST(CampaignFaults, ASceneWhoseWorkersNeverComeUpIsGivenUp) {
   const TemporaryFolder folder;
   const ProgramRun run =

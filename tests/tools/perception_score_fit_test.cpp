@@ -11,24 +11,26 @@
 namespace binpick {
 namespace {
 
-std::vector<ScoreSample> drawn(const ScoreFeatures& law, int count, Seed seed) {
+std::vector<ScoreSample> drawn(const ScoreTerms& law, int count, Seed seed) {
   std::vector<ScoreSample> samples(static_cast<std::size_t>(count));
   Rng rng = seed.rng();
   for (ScoreSample& s : samples) {
     s.part = rng.uniform() < 0.5 ? "a" : "b";
     s.features[0] = 1;
     for (std::size_t k = 1; k < kScoreFeatures; ++k) s.features[k] = rng.normal(0.3 * static_cast<double>(k % 4), 1);
+    s.features[kScoreFeatures - 1] -= 1.6;  // about the usual noise, where the products are apart from the features
     s.right = rng.uniform() < probability(law, s);
   }
   return samples;
 }
 
 TEST(ScoreFit, FindsTheLawThatMadeTheAnswers) {
-  ScoreFeatures law{};
+  ScoreTerms law{};
   law[0] = -0.5, law[1] = 2, law[3] = -1.5, law[5] = 0.7;
+  law[kScoreFeatures] = 0.8;  // the first feature times the noise
   const auto samples = drawn(law, 20000, Seed{1});
-  const ScoreFeatures found = fit_weights(samples, 1);
-  for (std::size_t k = 0; k < kScoreFeatures; ++k) EXPECT_NEAR(found[k], law[k], 0.12) << k;
+  const ScoreTerms found = fit_weights(samples, 1);
+  for (std::size_t k = 0; k < kScoreTerms; ++k) EXPECT_NEAR(found[k], law[k], 0.12) << k;
 }
 
 TEST(ScoreFit, StaysFiniteWhereTheAnswersCanBeSeparated) {
@@ -38,7 +40,7 @@ TEST(ScoreFit, StaysFiniteWhereTheAnswersCanBeSeparated) {
 }
 
 TEST(ScoreFit, LeavesFlaggedPosesOut) {
-  ScoreFeatures law{};
+  ScoreTerms law{};
   law[1] = 2;
   std::vector<ScoreSample> samples = drawn(law, 500, Seed{3}), more = samples;
   ScoreSample flagged = samples[0];

@@ -17,10 +17,11 @@ namespace {
 constexpr int kSteps = 40;
 constexpr double kScores[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
 
-using Weights = Eigen::Matrix<double, static_cast<int>(kScoreFeatures), 1>;
-using Hessian = Eigen::Matrix<double, static_cast<int>(kScoreFeatures), static_cast<int>(kScoreFeatures)>;
+using Weights = Eigen::Matrix<double, static_cast<int>(kScoreTerms), 1>;
+using Hessian = Eigen::Matrix<double, static_cast<int>(kScoreTerms), static_cast<int>(kScoreTerms)>;
 
-Weights vector_of(const ScoreFeatures& f) { return Eigen::Map<const Weights>(f.data()); }
+Weights vector_of(const ScoreTerms& t) { return Eigen::Map<const Weights>(t.data()); }
+Weights terms_of(const ScoreSample& s) { return vector_of(score_terms(s.features)); }
 
 std::vector<ScoreSample> clear_ones(std::span<const ScoreSample> samples) {
   std::vector<ScoreSample> out;
@@ -32,15 +33,15 @@ std::vector<ScoreSample> clear_ones(std::span<const ScoreSample> samples) {
 /// Standard deviation of each feature; the constant's is 1.
 Weights spreads(std::span<const ScoreSample> samples) {
   Weights mean = Weights::Zero(), square = Weights::Zero();
-  for (const ScoreSample& s : samples) mean += vector_of(s.features);
+  for (const ScoreSample& s : samples) mean += terms_of(s);
   mean /= static_cast<double>(samples.size());
-  for (const ScoreSample& s : samples) square += (vector_of(s.features) - mean).cwiseAbs2();
+  for (const ScoreSample& s : samples) square += (terms_of(s) - mean).cwiseAbs2();
   Weights spread = (square / static_cast<double>(samples.size())).cwiseSqrt().cwiseMax(1e-9);
   spread[0] = 1;
   return spread;
 }
 
-double log_loss(const ScoreFeatures& weights, std::span<const ScoreSample> samples) {
+double log_loss(const ScoreTerms& weights, std::span<const ScoreSample> samples) {
   double sum = 0;
   for (const ScoreSample& s : samples) {
     const double p = std::clamp(probability(weights, s), 1e-6, 1 - 1e-6);
@@ -49,7 +50,7 @@ double log_loss(const ScoreFeatures& weights, std::span<const ScoreSample> sampl
   return sum / static_cast<double>(std::max<std::size_t>(1, samples.size()));
 }
 
-double error_of(const ScoreFeatures& weights, std::span<const ScoreSample> samples) {
+double error_of(const ScoreTerms& weights, std::span<const ScoreSample> samples) {
   std::vector<ScoredEstimate> scored;
   for (const ScoreSample& s : samples) scored.push_back({probability(weights, s), s.right, s.ambiguous, 0, 0, 0});
   return calibration_error(reliability(scored, 10));
@@ -66,7 +67,7 @@ std::string left_out(std::span<const ScoreSample> samples, double ridge, double 
     std::vector<ScoreSample> rest, out;
     for (const ScoreSample& s : samples) (shape_of(s.part) == part ? out : rest).push_back(s);
     if (rest.empty()) continue;
-    const ScoreFeatures weights = fit_weights(rest, ridge, wrong_weight);
+    const ScoreTerms weights = fit_weights(rest, ridge, wrong_weight);
     char line[160];
     std::snprintf(line, sizeof line, "  %-20s %6zu poses, %5.1f %% right: log loss %.3f, calibration error %.3f\n",
                   part.c_str(), out.size(),
@@ -123,11 +124,11 @@ std::vector<ScoreSample> read_features(const std::string& path) {
   return samples;
 }
 
-double probability(const ScoreFeatures& weights, const ScoreSample& sample) {
-  return 1 / (1 + std::exp(-vector_of(weights).dot(vector_of(sample.features))));
+double probability(const ScoreTerms& weights, const ScoreSample& sample) {
+  return 1 / (1 + std::exp(-vector_of(weights).dot(terms_of(sample))));
 }
 
-ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge, double wrong_weight) {
+ScoreTerms fit_weights(std::span<const ScoreSample> all, double ridge, double wrong_weight) {
   const std::vector<ScoreSample> samples = clear_ones(all);
   const Weights spread = spreads(samples);
   Weights w = Weights::Zero();  // of the features divided by their spreads
@@ -137,7 +138,7 @@ ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge, double
     gradient[0] = 0;
     hessian(0, 0) = 1e-9;
     for (const ScoreSample& s : samples) {
-      const Weights x = vector_of(s.features).cwiseQuotient(spread);
+      const Weights x = terms_of(s).cwiseQuotient(spread);
       const double p = 1 / (1 + std::exp(-w.dot(x)));
       const double counts = s.right ? 1 : wrong_weight;
       gradient += counts * (p - (s.right ? 1 : 0)) * x;
@@ -145,12 +146,12 @@ ScoreFeatures fit_weights(std::span<const ScoreSample> all, double ridge, double
     }
     w -= hessian.ldlt().solve(gradient);
   }
-  ScoreFeatures out;
+  ScoreTerms out;
   Eigen::Map<Weights>(out.data()) = w.cwiseQuotient(spread);
   return out;
 }
 
-std::vector<Threshold> thresholds(const ScoreFeatures& weights, std::span<const ScoreSample> samples) {
+std::vector<Threshold> thresholds(const ScoreTerms& weights, std::span<const ScoreSample> samples) {
   std::vector<Threshold> out;
   for (const double score : kScores) {
     Threshold t;
@@ -169,12 +170,12 @@ std::vector<Threshold> thresholds(const ScoreFeatures& weights, std::span<const 
 std::string fit_report(std::span<const ScoreSample> all, double ridge, double wrong_weight) {
   const std::vector<ScoreSample> samples = clear_ones(all);
   if (samples.empty()) throw SpecError("no unambiguous estimate to fit to");
-  const ScoreFeatures weights = fit_weights(samples, ridge, wrong_weight);
+  const ScoreTerms weights = fit_weights(samples, ridge, wrong_weight);
   std::ostringstream out;
   char line[200];
-  out << "constexpr ScoreFeatures kWeights = {";
-  for (std::size_t k = 0; k < kScoreFeatures; ++k) {
-    std::snprintf(line, sizeof line, "%s%.4g", k > 0 ? ", " : "", weights[k]);
+  out << "constexpr ScoreTerms kWeights = {";
+  for (std::size_t k = 0; k < kScoreTerms; ++k) {
+    std::snprintf(line, sizeof line, "%s%.5g", k > 0 ? ", " : "", weights[k]);
     out << line;
   }
   std::snprintf(line, sizeof line,
