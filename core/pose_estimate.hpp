@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,7 +22,10 @@ struct SceneView {
   std::optional<BinSpec> bin;
   Pose X_CB = Pose::Identity();  ///< believed pose of the bin; meaningful only with `bin`
   StatedNoise cloud_noise;       ///< of a cloud's points along z of C; a frame brings its own
-  int threads = 1;               ///< that the estimator may use; its answer does not depend on it
+  /// Of a frame: the pixels that show parts (not 0), where somebody has segmented it; else the estimator does. Type ppf
+  /// takes it for what it is; others look for themselves.
+  std::shared_ptr<const Image<std::uint8_t>> segmentation;
+  int threads = 1;  ///< that the estimator may use; its answer does not depend on it
 
   const StatedNoise& noise() const {
     const auto* frame = std::get_if<DepthFrame>(&seen);

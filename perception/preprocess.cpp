@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.hpp"
 #include "core/error.hpp"
 #include "perception/bin_finder.hpp"
 #include "perception/bin_mask.hpp"
@@ -79,6 +80,17 @@ double floor_height(const Scene& scene, const PreprocessConfig& config, double t
 }
 
 /// Pass-through (paper 3.1), less floor and walls.
+/// What somebody else says are parts, in place of what the bin's shape says. The scene is a piece of the frame.
+void mark_segmented(Scene& scene, const Image<std::uint8_t>& parts, const DepthFrame& frame) {
+  BP_CHECK(parts.width() == frame.depth.width() && parts.height() == frame.depth.height(),
+           "a segmentation of " << parts.width() << " x " << parts.height() << " pixels");
+  const auto left = static_cast<int>(std::lround(frame.camera.cx - scene.camera.cx));
+  const auto top = static_cast<int>(std::lround(frame.camera.cy - scene.camera.cy));
+  for (int v = 0; v < scene.depth.height(); ++v)
+    for (int u = 0; u < scene.depth.width(); ++u)
+      scene.wanted(u, v) = parts(left + u, top + v) != 0 && scene.depth(u, v) > 0;
+}
+
 void mark_wanted(Scene& scene, const PreprocessConfig& config) {
   if (!scene.bin) {
     for (std::size_t i = 0; i < scene.depth.size(); ++i)
@@ -185,6 +197,7 @@ Scene make_scene(const SceneView& view, const PreprocessConfig& config, const No
   mark_thin_parts(scene, config, thinnest);
   if (scene.bin && scene.bin->shaped()) unmark_bin(scene, config.wall_margin);
   if (found && found->drafted) unmark_faces(scene, *found, config.wall_margin);
+  if (frame && view.segmentation) mark_segmented(scene, *view.segmentation, *frame);
   if (frame) {
     estimate_normals(scene, normals);
   } else {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/error.hpp"
 #include "sim/drop.hpp"
 #include "trials/arm_run.hpp"
+#include "trials/oracle_stages.hpp"
 
 namespace binpick {
 namespace {
@@ -43,7 +45,7 @@ class Execution {
         hook_(hook),
         arm_(cell_world, config) {
     HoldConfig hold_config;
-    hold_config.break_time = config.break_time;
+    hold_config.break_time = config.ideal_seal ? std::numeric_limits<double>::infinity() : config.break_time;
     cell_.set_hold_config(hold_config);
     for (std::size_t i = 0; i < cell_.heap().bodies.size(); ++i) {
       start_centres_.push_back(cell_.box_center(i));
@@ -94,6 +96,7 @@ class Execution {
     arm_.wait(kDwell, true);
     const std::vector<SurfaceSample> samples = cell_.probe_cups();
     Contact contact = cell_.cell().gripper->judge(samples);
+    if (config_.ideal_seal) seal_what_touches(cell_, samples, contact);
     if (plan_.site.cup >= 0) contact.sealed = contact.cup_sealed[static_cast<std::size_t>(plan_.site.cup)];
     if (contact.sealed) {
       attach(contact, samples);

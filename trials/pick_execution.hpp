@@ -27,6 +27,7 @@ struct ExecutionConfig {
   double vacuum_share = 0.8;     ///< lift starts at this share of the full vacuum
   double vacuum_timeout = 0.5;   ///< s
   double settle_time = 1.0;      ///< s after release, until the part must rest in the tray
+  bool ideal_seal = false;       ///< scenario's `oracles: {seal: true}`
   void visit(ConfigVisitor& v);
   void validate() const;
 };

@@ -152,6 +152,9 @@ void validate(const Scenario& s) {
     throw SpecError("calibration." + s.calibration.method +
                     ": is of a camera on the flange, and this one is fixed (cell.camera.mount); give an offset");
   s.trial.validate();
+  if ((s.oracles.segmentation || s.oracles.planning) && s.cell.camera_count() > 1)
+    throw SpecError("oracles: segmentation and planning are told of one camera's frame, and the cell has " +
+                    std::to_string(s.cell.camera_count()));
 }
 
 }  // namespace
@@ -194,6 +197,13 @@ void Scenario::visit(ConfigVisitor& v) {
   v.section("execution", execution, "the executed pick");
   visit_second_look(v, *this);
   v.section("trial", trial, "when a trial ends");
+  if (v.reading() || oracles.any()) v.section("oracles", oracles, "stages that are told the truth (binpick budget)");
+}
+
+void OracleStages::visit(ConfigVisitor& v) {
+  v.field("segmentation", segmentation, "the estimator is told which pixels of the first look show parts");
+  v.field("planning", planning, "the planner sees the heap's exact depth");
+  v.field("seal", seal, "every cup that touches a part seals, and holds whatever happens");
 }
 
 int Scenario::part_count() const {

@@ -28,6 +28,15 @@ struct PartEntry {
   void visit(ConfigVisitor& v);
 };
 
+/// `oracles:` stages that are told the truth (oracle_stages.hpp), for the error budget.
+struct OracleStages {
+  bool segmentation = false;  ///< the first look's pixels of parts are known
+  bool planning = false;      ///< plans on exact depth of the heap
+  bool seal = false;          ///< every cup that touches a part seals, and holds whatever happens
+  bool any() const { return segmentation || planning || seal; }
+  void visit(ConfigVisitor& v);
+};
+
 /// When a trial ends, and whether the arm moves.
 struct TrialConfig {
   int max_picks = 30;
@@ -56,6 +65,7 @@ struct Scenario {
   ExecutionConfig execution;
   SecondLookConfig second_look;
   TrialConfig trial;
+  OracleStages oracles;
   std::string file;  ///< where it was read from, for messages; no part of its values
 
   void visit(ConfigVisitor& v);

@@ -182,6 +182,7 @@ Sight second_sight(const LookRun& run, const Sight& first) {
   SceneView& view = out.seen.view;
   view.X_CB = stored_pose(again.frame.X_WC.inverse() * s.cell.X_WB);
   view.seen = frames.front();
+  view.segmentation = nullptr;  // that of the first look
   const SceneView near = view;
   view.seen = fuse_frames(frames, {}, KnownBin{s.cell.bin, s.cell.X_WB});
   view.cloud_noise = again.frame.noise;
@@ -217,7 +218,7 @@ bool look_again(const LookRun& run, Sight& sight, PickRecord& record) {
   again.found.wall = sum(sight.found.wall, again.found.wall);
   PickStart start = run.start;
   start.q_now = plan->q;
-  plan_sight(run.context, start, again, record);
+  plan_sight(run.s, run.context, start, again, record);
   sight = std::move(again);
   return true;
 }

@@ -17,6 +17,7 @@ EstimateResult estimate_view(const Scenario& s, const TrialContext& context, con
                              const GroundTruth& truth, Seed seed);
 
 /// Plans by what was found, if anything was; the wall time is added to the record.
-void plan_sight(const TrialContext& context, const PickStart& start, Sight& sight, PickRecord& record);
+void plan_sight(const Scenario& s, const TrialContext& context, const PickStart& start, Sight& sight,
+                PickRecord& record);
 
 }  // namespace binpick

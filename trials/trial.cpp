@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "evaluation/statistics.hpp"
+#include "trials/oracle_stages.hpp"
 #include "trials/second_look.hpp"
 
 namespace binpick {
@@ -37,7 +38,9 @@ void execute(const Scenario& s, CellWorld& cell_world, TrialContext& context, co
   const ExecutionHook hook = [&](const char* moment, const CellWorld& now) {
     if (pictures) pictures->moment(pick, moment, *context.renderer, now);
   };
-  const ExecutionResult result = execute_pick(cell_world, plan, s.execution, hook);
+  ExecutionConfig config = s.execution;
+  config.ideal_seal = s.oracles.seal;
+  const ExecutionResult result = execute_pick(cell_world, plan, config, hook);
   record.outcome = result.outcome;
   record.reason = result.reason;
   record.lifted_body = result.lifted;
@@ -119,8 +122,9 @@ PickRecord pick_once(Run& run, int pick) {
   const Seed estimator_seed = run.seed.child("estimator", static_cast<std::uint64_t>(pick));
   Sight sight;
   sight.seen = observe(run.s, run.cell_world, run.context, run.seed, pick);
+  if (run.s.oracles.segmentation) sight.seen.view.segmentation = true_segmentation(sight.seen);
   sight.found = estimate_view(run.s, run.context, sight.seen.view, sight.seen.truth, estimator_seed);
-  plan_sight(run.context, start, sight, record);
+  plan_sight(run.s, run.context, start, sight, record);
   if (run.pictures) {
     run.pictures->look(pick, "", *run.context.renderer, run.cell_world, sight.seen.captures[0].frame, sight.found);
     if (run.s.estimator) run.pictures->frame(pick, frame_request(run.s, estimator_seed), sight.seen.view, sight.found);

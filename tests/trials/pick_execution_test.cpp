@@ -196,6 +196,23 @@ TEST(PickExecution, SamePlanGivesTheSameBits) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+TEST(PickExecution, AnIdealSealHoldsWhereALipLeaksAndNotWhereNothingIs) {
+  ExecutionConfig ideal;
+  ideal.ideal_seal = true;
+  for (const Eigen::Vector3d& off : {Eigen::Vector3d(0.004, 0, 0), Eigen::Vector3d(0, 0, 0.03)}) {
+    Site site("mz07_three_cups.yaml");
+    site.lay({0, 0, 0});
+    site.start();
+    const ExecutionResult result = execute_pick(site.cell_world, site.plan_at(top_of(site, 0) + off), ideal);
+    if (off.z() > 0) {
+      expect_ended(site, result, PickOutcome::kNoSeal);
+      EXPECT_NE(result.reason.find("touches no part"), std::string::npos) << result.reason;
+    } else {
+      EXPECT_EQ(result.outcome, PickOutcome::kSucceeded) << result.reason;
+    }
+  }
+}
+
 TEST(PickExecution, SealHasTheBudgetOfTheLand) {
   // A 10 mm lip on a 15 mm land: 2.5 mm to either side (physical_models B1).
   for (const double offset : {0.0015, 0.0040}) {

@@ -159,7 +159,7 @@ struct TwoLooks {
     drop_heap(scenario, context, seed, cell_world);
     sight.seen = observe(scenario, cell_world, context, seed, 0);
     sight.found = estimate_view(scenario, context, sight.seen.view, sight.seen.truth, Seed{4});
-    plan_sight(context, {}, sight, record);
+    plan_sight(scenario, context, {}, sight, record);
     const PickPlan& plan = sight.plan.plan.value();
     failed_W = {plan.X_WP_est * context.parts[0].box_center_P};
   }
