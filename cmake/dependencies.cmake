@@ -24,6 +24,19 @@ if(BINPICK_WITH_SIM)
 
   find_package(SQLite3 REQUIRED)
 
+  find_package(meshoptimizer REQUIRED)  # meshes of replays, made small
+  find_package(GIF 5 REQUIRED)
+
+  # Scripts that report pages carry; three.js is of before it became modules only, which a page opened from disk cannot load.
+  find_file(BINPICK_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH)
+  find_file(BINPICK_THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript/three/build NO_DEFAULT_PATH)
+  find_file(BINPICK_ORBIT_CONTROLS_JS OrbitControls.js
+            PATHS /usr/share/javascript/three/examples/js/controls NO_DEFAULT_PATH)
+  if(NOT BINPICK_CHART_JS OR NOT BINPICK_THREE_JS OR NOT BINPICK_ORBIT_CONTROLS_JS)
+    message(FATAL_ERROR "Report pages carry Chart.js 3 and three.js r111: install libjs-chart.js and libjs-three "
+                        "(tools/setup does), or set BINPICK_CHART_JS, BINPICK_THREE_JS and BINPICK_ORBIT_CONTROLS_JS")
+  endif()
+
   pkg_check_modules(URDFDOM REQUIRED IMPORTED_TARGET urdfdom)
 
   # Not find_package(ompl): its variables name a folder that does not exist and ODE, which only another planner needs.

@@ -1,35 +1,19 @@
-// One self-contained page. Every text that comes from a file is escaped; nothing is fetched from anywhere but the run
-// folder's own pictures, which the Content-Security-Policy enforces.
+// The report's body. Every text that comes from a file is escaped; what the plots show also stands in tables, for those
+// who cannot see them or run no scripts.
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <string_view>
 
+#include "core/base64.hpp"
+#include "evaluation/html_page.hpp"
 #include "evaluation/html_plots.hpp"
-#include "evaluation/html_style.hpp"
 #include "evaluation/paper_figures.hpp"
-#include "evaluation/report.hpp"
+#include "evaluation/report_tables.hpp"
 #include "evaluation/report_text.hpp"
 
 namespace binpick {
 namespace {
 
-using text::fixed;
-
-constexpr std::size_t kFailuresShown = 500;
-
-std::string cell(const std::string& raw, const char* kind = "") {
-  return std::string("<td") + (*kind ? std::string(" class=\"") + kind + "\"" : "") + ">" + text::html(raw) + "</td>";
-}
-
-std::string head(const std::vector<std::pair<const char*, const char*>>& columns) {
-  std::string row = "<tr>";
-  for (const auto& [name, kind] : columns)
-    row += std::string("<th class=\"") + kind + "\">" + text::html(name) + "</th>";
-  return row + "</tr>";
-}
-
-std::string table(const std::string& rows) { return "<div class=\"scroll\"><table>" + rows + "</table></div>"; }
+using Tables = std::vector<ReportTable>;
 
 std::string card(const char* name, const Rate& rate, double reference = -1) {
   return std::string("<div class=\"card\"><span>") + name + "</span><b>" + text::percent(rate.rate) + "</b>" +
@@ -47,180 +31,77 @@ std::string cards(const CampaignSummary& s) {
          std::to_string(paper::kPlaced) + " / " + std::to_string(paper::kDropped) + " = " + text::percent(paper_rate) +
          " (Wilson 95 %: " + text::percent(theirs) +
          "). Our intervals are cluster bootstraps over piles. A pose is right when its largest surface distance (MSSD) "
-         "is "
-         "below 0.1 diameter; recall counts instances at least half visible.</p>";
+         "is below 0.1 diameter; recall counts instances at least half visible.</p>";
 }
 
-std::string error_table(const CampaignSummary& s) {
-  const auto three = [](const std::array<double, 3>& v) { return text::triple({v[0], v[1], v[2]}, 1, 2); };
-  const auto row = [](const std::string& name, const std::string& ours, const std::string& theirs) {
-    return "<tr>" + cell(name) + cell(ours, "n") + cell(theirs, "n") + "</tr>";
-  };
-  const auto pair = [](double median, double p95) { return fixed(median, 2) + " / " + fixed(p95, 2); };
-  return table(
-      head({{"right poses", ""}, {"ours", "n"}, {"paper", "n"}}) +
-      row("mean absolute X / Y / Z, mm", text::triple(s.mean_abs_xyz, text::kToMm, 2), three(paper::kMeanAbsXyzMm)) +
-      row("mean absolute roll / pitch / yaw, deg", text::triple(s.mean_abs_rpy, text::kToDeg, 2),
-          three(paper::kMeanAbsRpyDeg)) +
-      row("translation, median / 95 %, mm", pair(text::kToMm * s.translation_median, text::kToMm * s.translation_p95),
-          "-") +
-      row("rotation, median / 95 %, deg", pair(text::kToDeg * s.rotation_median, text::kToDeg * s.rotation_p95), "-"));
-}
-
-std::string error_plots(std::span<const TrialRecord> records) {
-  std::vector<double> translations, rotations;
-  for (const TrialRecord& record : records) {
-    for (const PickRecord& pick : record.picks) {
-      for (const MatchedEstimate& e : pick.check.estimates) {
-        if (!e.right || e.ignored || !std::isfinite(e.error.translation) || !std::isfinite(e.error.rotation)) continue;
-        translations.push_back(text::kToMm * e.error.translation);
-        rotations.push_back(text::kToDeg * e.error.rotation);
-      }
-    }
+std::string opening(const PageSources& sources) {
+  if (sources.opening.empty()) return "";
+  std::string html = "<div class=\"plots opening\">";
+  for (const PageSources::Picture& picture : sources.opening) {
+    const std::string caption = text::html(picture.caption);
+    html += "<figure><img src=\"data:image/png;base64," + base64(picture.png) + "\" alt=\"" + caption +
+            "\"><figcaption>" + caption + "</figcaption></figure>";
   }
+  return html + "</div>";
+}
+
+const ReportTable& table_of(const Tables& tables, const std::string& id) {
+  return *std::find_if(tables.begin(), tables.end(), [&](const ReportTable& table) { return table.id == id; });
+}
+
+/// A table to unfold.
+std::string folded(const ReportTable& table, bool open = false) {
+  if (table.rows.empty()) return "";
+  return "<details id=\"table-" + table.id + "\"" + (open ? " open" : "") + "><summary>" + text::html(table.title) +
+         "</summary>" + table_html(table) +
+         (table.note.empty() ? "" : "<p class=\"note\">" + text::html(table.note) + "</p>") + "</details>";
+}
+
+/// The place of a plot. `what` is read where it cannot be seen.
+std::string plot(const char* id, const char* what) {
+  return std::string("<div class=\"card plot\"><div class=\"canvas\"><canvas id=\"plot-") + id +
+         "\" role=\"img\" aria-label=\"" + what + "\"></canvas></div></div>";
+}
+
+std::string section(const char* id, const char* title, const std::string& body) {
+  return std::string("<section id=\"") + id + "\"><h2>" + title + "</h2>" + body + "</section>";
+}
+
+std::string failures_section(const Tables& tables) {
+  const ReportTable& failures = table_of(tables, "failures");
+  const ReportTable& broken = table_of(tables, "trial_failures");
+  std::string body = failures.rows.empty() ? "<p>No pick failed.</p>"
+                                           : plot("pareto", "Failed picks by outcome, most frequent first") +
+                                                 "<div id=\"outcomes\" class=\"chips\"></div>"
+                                                 "<div id=\"drill\" aria-live=\"polite\"></div>";
+  return section("failures", "Failures",
+                 body + folded(failures) + folded(broken, true) + folded(table_of(tables, "outcomes"), true) +
+                     folded(table_of(tables, "rejections")));
+}
+
+std::string recall_section(const Tables& tables) {
+  if (table_of(tables, "recall_by_threshold").rows.empty())
+    return section("recall", "Recall",
+                   "<p class=\"note\">These records do not say what lay in the bin at each look (they are of an older "
+                   "version): no recall by threshold, visibility or rank.</p>");
+  return section("recall", "Recall",
+                 "<div class=\"plots\">" + plot("threshold", "Recall against the threshold in diameters") +
+                     plot("threshold-mm", "Recall against the threshold in mm") +
+                     plot("visibility", "Recall by visible fraction") + plot("rank", "Recall by rank in the heap") +
+                     "</div>" + folded(table_of(tables, "recall_by_threshold")) +
+                     folded(table_of(tables, "recall_by_visibility")) + folded(table_of(tables, "recall_by_rank")));
+}
+
+std::string errors_section(const Tables& tables) {
   std::string plots;
-  for (const std::string& plot : {html::distribution("translation error", "mm", translations),
-                                  html::distribution("rotation error", "deg", rotations)}) {
-    if (!plot.empty()) plots += "<div class=\"card\">" + plot + "</div>";
-  }
-  return "<div class=\"plots\">" + plots + "</div>";
-}
-
-std::string stage_table(const CampaignSummary& s) {
-  std::string rows = head({{"stage, ms", ""}, {"mean", "n"}, {"median", "n"}, {"95 %", "n"}, {"paper, mean", "n"}});
-  for (const text::StageLine& line : text::stage_lines(s)) {
-    rows += "<tr>" + cell(line.name) + cell(fixed(line.mean, 0), "n") + cell(fixed(line.median, 0), "n") +
-            cell(fixed(line.p95, 0), "n") + cell(line.paper < 0 ? "-" : fixed(line.paper, 0), "n") + "</tr>";
-  }
-  return table(rows) +
-         "<p class=\"note\">Vision and planning are wall times on the machine that ran the campaign, robot "
-         "motion is simulated time. Median cycle " +
-         fixed(s.cycle_median, 2) + " s simulated: " + fixed(s.simulated_picks_per_hour, 0) + " picks per hour.</p>";
-}
-
-std::string outcome_table(const CampaignSummary& s) {
-  std::size_t most = 1;
-  for (const auto& [name, count] : s.outcomes) most = std::max(most, count);
-  std::string rows = head({{"outcome", ""}, {"picks", "n"}, {"", "wide"}, {"meaning", ""}});
-  for (PickOutcome outcome : all_pick_outcomes()) {
-    const auto found = s.outcomes.find(to_string(outcome));
-    if (found == s.outcomes.end()) continue;
-    const double share = 100.0 * static_cast<double>(found->second) / static_cast<double>(most);
-    const bool good = outcome == PickOutcome::kSucceeded || outcome == PickOutcome::kBinEmpty;
-    rows += "<tr>" + cell(found->first) + cell(std::to_string(found->second), "n") +
-            "<td class=\"wide\"><div class=\"bar" + (good ? " ok" : "") + "\" style=\"width:" + fixed(share, 1) +
-            "%\"></div></td>" + cell(text::meaning(outcome)) + "</tr>";
-  }
-  return table(rows);
-}
-
-/// What ruled candidates out, over all picks, most frequent first.
-std::string rejection_table(std::span<const TrialRecord> records) {
-  std::map<std::string, long> sums;
-  for (const TrialRecord& record : records) {
-    for (const PickRecord& pick : record.picks) {
-      for (const auto& [reason, count] : pick.rejections) sums[reason] += count;
-    }
-  }
-  if (sums.empty()) return "";
-  std::vector<std::pair<std::string, long>> sorted(sums.begin(), sums.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  constexpr std::size_t kShown = 12;
-  std::string rows = head({{"reason", ""}, {"candidates", "n"}});
-  for (std::size_t i = 0; i < std::min(sorted.size(), kShown); ++i) {
-    rows += "<tr>" + cell(sorted[i].first) + cell(std::to_string(sorted[i].second), "n") + "</tr>";
-  }
-  return "<h2>What ruled pick candidates out</h2>" + table(rows);
-}
-
-/// "seed-9" before "seed-10".
-struct ShorterFirst {
-  bool operator()(const std::string& a, const std::string& b) const {
-    return a.size() != b.size() ? a.size() < b.size() : a < b;
-  }
-};
-using Pictures = std::map<std::string, std::vector<std::string>, ShorterFirst>;
-
-/// Pictures by the folder they lie in, in the given order within it. Paths that leave the run folder are left out.
-Pictures by_folder(std::span<const std::string> picture_paths) {
-  Pictures folders;
-  for (const std::string& path : picture_paths) {
-    if (text::relative_url(path).empty()) continue;
-    const std::size_t slash = path.find_last_of('/');
-    folders[slash == std::string::npos ? "" : path.substr(0, slash)].push_back(path);
-  }
-  return folders;
-}
-
-std::string failure_row(const TrialRecord& record, std::size_t index, bool pictured) {
-  const PickRecord& pick = record.picks[index];
-  const std::string seed = std::to_string(record.seed.key);
-  return "<tr><td class=\"n\">" + (pictured ? "<a href=\"#seed-" + seed + "\">" + seed + "</a>" : seed) + "</td>" +
-         cell(std::to_string(index), "n") + cell(to_string(pick.outcome)) + cell(pick.reason) +
-         "<td><code>binpick trial scenario.yaml --seed " + seed + "</code></td></tr>";
-}
-
-std::string failed_trial_row(const TrialRecord& record) {
-  const std::string seed = std::to_string(record.seed.key);
-  return "<tr>" + cell(seed, "n") + cell("-", "n") + cell(to_string(*failure_of(record))) + cell(record.error) +
-         "<td><code>binpick trial scenario.yaml --seed " + seed + "</code></td></tr>";
-}
-
-std::string failure_list(std::span<const TrialRecord> records, const Pictures& pictures) {
-  std::string rows =
-      head({{"seed", "n"}, {"pick", "n"}, {"outcome", ""}, {"reason", ""}, {"again, in the run folder", ""}});
-  std::size_t count = 0;
-  for (const TrialRecord& record : records)
-    if (failure_of(record) && ++count <= kFailuresShown) rows += failed_trial_row(record);
-  for (const TrialRecord& record : records) {
-    if (failure_of(record)) continue;
-    for (std::size_t i = 0; i < record.picks.size(); ++i) {
-      const PickOutcome outcome = record.picks[i].outcome;
-      if (outcome == PickOutcome::kSucceeded || outcome == PickOutcome::kBinEmpty) continue;
-      if (++count > kFailuresShown) continue;
-      rows += failure_row(record, i, pictures.count("artifacts/seed-" + std::to_string(record.seed.key)) > 0);
-    }
-  }
-  if (count == 0) return "<p>None.</p>";
-  if (count <= kFailuresShown) return table(rows);
-  return table(rows) + "<p class=\"note\">The first " + std::to_string(kFailuresShown) + " of " +
-         std::to_string(count) + "; picks.csv has them all.</p>";
-}
-
-std::string figure(const std::string& path, const std::string& raw_caption) {
-  const std::string url = text::html(text::relative_url(path)), caption = text::html(raw_caption);
-  return "<figure><a href=\"" + url + "\"><img loading=\"lazy\" src=\"" + url + "\" alt=\"" + caption +
-         "\"></a><figcaption>" + caption + "</figcaption></figure>";
-}
-
-/// The first heap and the first estimates drawn over it, large.
-std::string opening_pictures(const Pictures& pictures) {
-  const auto first = [&](std::string_view ending) -> std::string {
-    for (const auto& [folder, paths] : pictures) {
-      for (const std::string& path : paths) {
-        if (path.ends_with(ending)) return path;
-      }
-    }
-    return "";
-  };
-  const std::string heap = first("heap.png"), estimates = first("estimates.png");
-  if (heap.empty() || estimates.empty()) return "";
-  return "<div class=\"plots opening\">" + figure(heap, "the heap") +
-         figure(estimates, "estimates over the camera's view") + "</div>";
-}
-
-std::string gallery(const Pictures& pictures) {
-  std::string section;
-  for (const auto& [folder, paths] : pictures) {
-    const std::size_t slash = folder.find_last_of('/');
-    const std::string name = slash == std::string::npos ? folder : folder.substr(slash + 1);
-    section += "<h3 id=\"" + text::html(name) + "\">" + text::html(name) + "</h3><div class=\"pictures\">";
-    for (const std::string& path : paths) {
-      section += figure(path, path.substr(folder.empty() ? 0 : folder.size() + 1));
-    }
-    section += "</div>";
-  }
-  return section.empty() ? "" : "<h2>Pictures</h2>" + section;
+  if (!table_of(tables, "error_cdf").rows.empty())
+    plots = "<div class=\"plots\">" + plot("translation", "Distribution of translation errors") +
+            plot("rotation", "Distribution of rotation errors") +
+            plot("axes", "Mean absolute error by axis, ours and the paper's") +
+            plot("score", "Share of right estimates by score") + "</div>";
+  return section("errors", "Errors of right poses",
+                 plots + folded(table_of(tables, "errors_by_axis"), true) + folded(table_of(tables, "error_cdf")) +
+                     folded(table_of(tables, "score_calibration")));
 }
 
 std::string slips() {
@@ -229,26 +110,75 @@ std::string slips() {
   return list + "</ul>";
 }
 
+std::string provenance(const CampaignSummary& summary, std::span<const TrialRecord> records,
+                       const PageSources& sources) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (!records.empty()) {
+    rows.emplace_back("scenario hash", records.front().scenario_hash);
+    rows.emplace_back("seeds", std::to_string(records.front().seed.key) + " to " +
+                                   std::to_string(records.back().seed.key) + ", " + std::to_string(records.size()) +
+                                   " trials");
+    rows.emplace_back("build of the program", records.front().build.empty() ? "not recorded" : records.front().build);
+    rows.emplace_back("record schema", std::to_string(records.front().schema));
+  }
+  rows.emplace_back("records hash", summary.records_hash);
+  rows.insert(rows.end(), sources.provenance.begin(), sources.provenance.end());
+  std::string html = "<div class=\"scroll\"><table>";
+  for (const auto& [what, value] : rows)
+    html += "<tr><th scope=\"row\">" + text::html(what) + "</th><td><code>" + text::html(value) + "</code></td></tr>";
+  return section("provenance", "Provenance", html + "</table></div>");
+}
+
+/// Links to the run folder's pictures, by seed: "seed-9" before "seed-10". Paths that leave the folder are left out.
+std::string picture_links(const PageSources& sources) {
+  std::map<std::pair<std::size_t, std::string>, std::string> folders;
+  for (const std::string& path : sources.picture_paths) {
+    const std::string url = text::html(text::relative_url(path));
+    if (url.empty()) continue;
+    const std::size_t slash = path.find_last_of('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash);
+    folders[{folder.size(), folder}] += "<a href=\"" + url + "\">" + text::html(path.substr(slash + 1)) + "</a> ";
+  }
+  if (folders.empty()) return "";
+  std::string rows;
+  for (const auto& [folder, links] : folders)
+    rows += "<tr><th scope=\"row\">" + text::html(folder.second) + "</th><td>" + links + "</td></tr>";
+  return section("pictures", "Pictures in the run folder",
+                 "<details><summary>" + std::to_string(sources.picture_paths.size()) +
+                     " pictures</summary><div class=\"scroll\"><table>" + rows + "</table></div></details>");
+}
+
 }  // namespace
 
 std::string html_report(const CampaignSummary& summary, std::span<const TrialRecord> records,
-                        std::span<const std::string> picture_paths) {
-  const auto pictures = by_folder(picture_paths);
-  const std::string name = text::html(summary.scenario);
-  const std::string scenario_hash = records.empty() ? "-" : text::html(records.front().scenario_hash);
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-         "img-src 'self' file:; base-uri 'none'; form-action 'none'\">"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" +
-         name + " - binpick</title><style>" + html::kStyle + "</style></head><body><main><h1>" + name +
-         "</h1><p class=\"verdict\">" + text::html(text::verdict(summary)) + "</p>" + opening_pictures(pictures) +
-         cards(summary) + "<h2>Errors of right poses (paper: Tables 1 and 2)</h2>" + error_table(summary) + "<p></p>" +
-         error_plots(records) + "<h2>Times (paper: Table 4)</h2>" + stage_table(summary) + "<h2>How picks ended</h2>" +
-         outcome_table(summary) + "<p class=\"note\">" + text::html(text::collision_line(summary)) +
-         ".</p><h2>Failures</h2>" + failure_list(records, pictures) + rejection_table(records) + gallery(pictures) +
-         "<h2>About the paper's figures</h2>" + slips() + "<p class=\"note\">" + std::to_string(summary.trials) +
-         " trials; scenario " + scenario_hash + "; records " + text::html(summary.records_hash) +
-         ".</p></main></body></html>\n";
+                        const PageSources& sources) {
+  const Tables tables = report_tables(summary, records);
+  const std::string replays = html::replay_section(sources);
+  const auto folds = [&](const char* id) { return folded(table_of(tables, id)); };
+  html::Page page{summary.scenario, "", tables_json(tables), &sources};
+  page.body = "<h1>" + text::html(summary.scenario) + "</h1><p class=\"verdict\">" +
+              text::html(text::verdict(summary)) + "</p><nav><a href=\"#failures\">failures</a>" +
+              (replays.empty() ? "" : "<a href=\"#replay\">replay</a>") +
+              "<a href=\"#recall\">recall</a><a href=\"#errors\">errors</a><a href=\"#times\">times</a>"
+              "<a href=\"#emptying\">emptying</a><a href=\"#provenance\">provenance</a></nav>" +
+              cards(summary) + folds("rates") + opening(sources) + failures_section(tables) + replays +
+              recall_section(tables) + errors_section(tables) +
+              section("times", "Times",
+                      plot("times", "Mean time of a cycle by stage, ours and the paper's") +
+                          folded(table_of(tables, "stage_times"), true)) +
+              section("emptying", "How a bin empties",
+                      "<div class=\"plots\">" + plot("emptying", "Parts left in the bin against attempts") +
+                          plot("left", "Success and cycle time by parts left") + "</div>" + folds("emptying") +
+                          folds("picks_by_parts_left") + folds("piles")) +
+              provenance(summary, records, sources) + picture_links(sources) +
+              section("paper", "About the paper's figures", slips());
+  return html::whole_page(page);
+}
+
+std::string html_replay(const std::string& title, const PageSources& sources) {
+  html::Page page{title, "", "", &sources};
+  page.body = "<h1>" + text::html(title) + "</h1>" + html::replay_section(sources);
+  return html::whole_page(page);
 }
 
 }  // namespace binpick

@@ -3,6 +3,7 @@
 // body), so that one function lists them for writing, hashing and reading.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,12 @@ class JsonWriter {
     for (const auto& [name, count] : value) object[name] = count;
   }
   void hash(const char* key, std::uint64_t value) { json[key] = hex(value); }
+  /// One member of every item, as a list.
+  template <class T, class Value>
+  void column(const char* key, const std::vector<T>& items, Value T::*member) {
+    OrderedJson& array = json[key] = OrderedJson::array();
+    for (const T& item : items) array.push_back(item.*member);
+  }
   template <class T, class Body>
   void list(const char* key, const std::vector<T>& items, const Body& body) {
     OrderedJson& array = json[key] = OrderedJson::array();
@@ -150,6 +157,18 @@ class JsonReader {
     values.clear();
     for (const nlohmann::json& item : found)
       values.push_back(need(item.is_number(), key, "holds what is no number", item));
+  }
+  /// The first column says how many items there are.
+  template <class T, class Value>
+  void column(const char* key, std::vector<T>& items, Value T::*member) {
+    std::vector<double> values;
+    (*this)(key, values);
+    if (items.empty()) items.resize(values.size());
+    if (values.size() != items.size()) fail(key, "is not as long as the columns before it");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::abs(values[i]) > 1e6) fail(key, "holds a number out of all range");
+      items[i].*member = static_cast<Value>(values[i]);
+    }
   }
   template <class T, class Body>
   void list(const char* key, std::vector<T>& items, const Body& body) {

@@ -4,21 +4,13 @@
 
 #include "core/hash.hpp"
 #include "evaluation/report.hpp"
+#include "evaluation/report_table.hpp"
 #include "evaluation/report_text.hpp"
 
 namespace binpick {
 namespace {
 
 using text::fixed;
-
-/// Quoted when needed. A text that a spreadsheet would take for a formula gets an apostrophe in front.
-std::string cell(std::string value) {
-  if (!value.empty() && std::string_view("=+-@\t\r").find(value.front()) != std::string_view::npos) value = "'" + value;
-  if (value.find_first_of(",\"\n\r") == std::string::npos) return value;
-  std::string quoted = "\"";
-  for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string number(double value, int digits) { return std::isfinite(value) ? fixed(value, digits) : ""; }
 std::string number(std::size_t value) { return std::to_string(value); }
@@ -55,11 +47,11 @@ using T = const TrialRecord&;
 using P = const PickRecord&;
 
 constexpr Column kColumns[] = {
-    {"scenario", [](T t, std::size_t, P) { return cell(t.scenario); }},
+    {"scenario", [](T t, std::size_t, P) { return csv_cell(t.scenario); }},
     {"seed", [](T t, std::size_t, P) { return std::to_string(t.seed.key); }},
     {"pick", [](T, std::size_t i, P) { return number(i); }},
     {"outcome", [](T, std::size_t, P p) { return to_string(p.outcome); }},
-    {"reason", [](T, std::size_t, P p) { return cell(p.reason); }},
+    {"reason", [](T, std::size_t, P p) { return csv_cell(p.reason); }},
     {"visible", [](T, std::size_t, P p) { return number(p.check.visible); }},
     {"found", [](T, std::size_t, P p) { return number(p.check.found); }},
     {"counted", [](T, std::size_t, P p) { return number(p.check.counted); }},
@@ -84,7 +76,7 @@ constexpr Column kColumns[] = {
     {"contact_depth_mm", [](T, std::size_t, P p) { return number(text::kToMm * p.contact_depth, 3); }},
     {"collisions", [](T, std::size_t, P p) { return std::to_string(collisions_of(p)); }},
     {"collision_depth_mm", [](T, std::size_t, P p) { return number(text::kToMm * p.collision_depth, 3); }},
-    {"second_look", [](T, std::size_t, P p) { return cell(p.second_look); }},
+    {"second_look", [](T, std::size_t, P p) { return csv_cell(p.second_look); }},
     {"look_s", [](T, std::size_t, P p) { return number(p.look_time, 3); }},
     {"neighbours_moved", [](T, std::size_t, P p) { return std::to_string(p.neighbours_moved); }},
     {"neighbours_dragged", [](T, std::size_t, P p) { return std::to_string(p.neighbours_dragged); }},

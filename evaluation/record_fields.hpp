@@ -98,6 +98,17 @@ void run_fields(Archive& archive, Record& record) {
   archive.unless("first_failure", record.first_failure, std::string());
 }
 
+/// What lay in the bin at each pick's look, as columns: outside the hash, since it follows from what is in it.
+template <class Archive, class Record>
+void seen_fields(Archive& archive, Record& record) {
+  archive.list("seen", record.picks, [](auto& inner, auto& pick) {
+    inner.column("part", pick.seen, &SeenInstance::part);
+    inner.column("diameter", pick.seen, &SeenInstance::diameter);
+    inner.column("visible", pick.seen, &SeenInstance::visible);
+    inner.column("height", pick.seen, &SeenInstance::height);
+  });
+}
+
 /// Wall times: outside the hash. The list is as long as `picks`.
 template <class Archive, class Record>
 void wall_fields(Archive& archive, Record& record) {

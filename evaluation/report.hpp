@@ -20,9 +20,29 @@ struct NamedSummary {
 std::string side_by_side(std::span<const NamedSummary> campaigns, bool markdown);
 /// One row per pick.
 std::string picks_csv(std::span<const TrialRecord> records);
-/// A self-contained page with the tables, the failure list (each line with its replay command) and the run's pictures
-/// (paths relative to the run folder).
+
+/// What a page shows beside the records.
+struct PageSources {
+  struct Picture {
+    std::string caption, png;  ///< bytes
+  };
+  struct Replay {
+    std::uint64_t seed = 0;
+    std::string json;  ///< docs/report.md
+  };
+  std::vector<std::pair<std::string, std::string>> provenance;  ///< what, and its text
+  std::vector<Picture> opening;                                 ///< embedded
+  std::vector<std::string> picture_paths;                       ///< linked to, relative to the page
+  std::string cell_json;                                        ///< of the replays
+  std::vector<Replay> replays;
+  std::string replay_note;  ///< why some are left out
+};
+
+/// One self-contained page: tables, plots, failures with their replay commands, replays. It asks nobody for anything
+/// and runs no script but its own, which its content-security policy enforces.
 std::string html_report(const CampaignSummary& summary, std::span<const TrialRecord> records,
-                        std::span<const std::string> picture_paths);
+                        const PageSources& sources);
+/// A page with one replay and nothing else.
+std::string html_replay(const std::string& title, const PageSources& sources);
 
 }  // namespace binpick

@@ -34,6 +34,7 @@ std::string to_json_line(const TrialRecord& record) {
   JsonWriter rest;
   rest.hash("hash", hash);
   record::run_fields(rest, record);
+  record::seen_fields(rest, record);
   JsonWriter wall;
   record::wall_fields(wall, record);
   rest.json["wall"] = std::move(wall.json);

@@ -18,6 +18,14 @@ namespace binpick {
 
 inline constexpr int kRecordSchema = 4;
 
+/// A part in the bin at a look, in the order of GroundTruth::instances: what recall by visibility and by depth needs.
+struct SeenInstance {
+  int part = 0;         ///< index into the scenario's parts
+  double diameter = 0;  ///< m
+  double visible = 0;   ///< fraction
+  double height = 0;    ///< m, of its box centre above the bin's floor
+};
+
 struct PickRecord {
   PickOutcome outcome = PickOutcome::kNoDetection;
   std::string reason;                      ///< one phrase, e.g. why no candidate survived
@@ -45,9 +53,10 @@ struct PickRecord {
   int neighbours_moved = 0;               ///< parts that moved by more than 5 mm while the target was lifted
   std::uint64_t frame_hash = 0;
   std::uint64_t estimates_hash = 0;
-  std::uint64_t world_hash = 0;  ///< after the pick
-  StageTimes wall;               ///< s, outside the hash
-  double plan_wall = 0;          ///< s, outside the hash
+  std::uint64_t world_hash = 0;    ///< after the pick
+  std::vector<SeenInstance> seen;  ///< what lay in the bin, outside the hash; empty in lines of older versions
+  StageTimes wall;                 ///< s, outside the hash
+  double plan_wall = 0;            ///< s, outside the hash
 };
 
 struct TrialRecord {

@@ -70,6 +70,9 @@ TrialRecord trial_record_from_json(const std::string& line, const std::string& p
   if (hash != record_hash(record)) reader.fail("hash", "does not fit the values: the record was altered or damaged");
   check_counts(record, reader);
   record::run_fields(reader, record);
+  const bool has_seen = json.contains("seen");  // lines of older versions have none
+  if (has_seen) record::seen_fields(reader, record);
+  if (record.picks.size() != picks) reader.fail("seen", "is not as long as the list of picks");
   JsonReader wall(reader.at("wall"), place + ": wall.");
   record::wall_fields(wall, record);
   wall.finish();

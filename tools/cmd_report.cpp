@@ -1,5 +1,6 @@
-// binpick report RUN...: writes RUN/report.html, results.md, picks.csv and summary.json from the records, prints the
-// table; of several runs one table with a row each.
+// binpick report RUN...: writes RUN/report.html, tables/, results.md, picks.csv and summary.json from the records,
+// prints the table; of several runs one table with a row each. --replays N: so many replays in the page, run again
+// where the campaign kept none.
 
 #include <filesystem>
 #include <fstream>
@@ -9,7 +10,7 @@
 #include "core/error.hpp"
 #include "evaluation/report.hpp"
 #include "tools/commands.hpp"
-#include "trials/campaign.hpp"
+#include "trials/run_report.hpp"
 
 namespace binpick {
 namespace {
@@ -24,26 +25,42 @@ double campaign_wall(const std::string& run_folder) {
   return 3600.0 * summary["picks"].value("attempted", 0.0) / per_hour;
 }
 
-CampaignSummary summary_of(const std::string& folder) {
+struct Options {
+  std::vector<std::string> folders;
+  bool markdown = false;
+  int replays = -1;  // not given: those that are kept, up to the default
+};
+
+CampaignSummary summary_of(const std::string& folder, const Options& options) {
   if (!std::filesystem::is_directory(folder)) throw SpecError(folder + ": is not a run folder");
-  return write_reports(folder, campaign_wall(folder));
+  ReportOptions report;
+  if (options.replays >= 0) {
+    report.replays = static_cast<std::size_t>(options.replays);
+    report.run_again = true;
+  }
+  StderrProgress progress;
+  return write_reports(folder, campaign_wall(folder), report, &progress);
 }
 
 }  // namespace
 
 Action add_report(CLI::App& app) {
-  auto folders = std::make_shared<std::vector<std::string>>();
-  auto markdown = std::make_shared<bool>(false);
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("report", "tables and a page from a run folder; several: side by side");
-  command->add_option("run", *folders, "run folders")->required();
-  command->add_flag("--markdown", *markdown, "print the Markdown tables instead of the short one");
-  return [folders, markdown] {
+  command->add_option("run", options->folders, "run folders")->required();
+  command->add_flag("--markdown", options->markdown, "print the Markdown tables instead of the short one");
+  command
+      ->add_option("--replays", options->replays,
+                   "replays in the page, failed trials first; run again where none is kept (default: up to 20 kept)")
+      ->check(CLI::Range(0, 1000));
+  return [options] {
     std::vector<NamedSummary> campaigns;
-    for (const std::string& folder : *folders)
-      campaigns.push_back({std::filesystem::path(folder + "/").parent_path().filename().string(), summary_of(folder)});
+    for (const std::string& folder : options->folders)
+      campaigns.push_back(
+          {std::filesystem::path(folder + "/").parent_path().filename().string(), summary_of(folder, *options)});
     const CampaignSummary& first = campaigns.front().summary;
-    std::cout << (campaigns.size() > 1 ? side_by_side(campaigns, *markdown)
-                  : *markdown          ? markdown_report(first)
+    std::cout << (campaigns.size() > 1 ? side_by_side(campaigns, options->markdown)
+                  : options->markdown  ? markdown_report(first)
                                        : terminal_table(first))
               << std::flush;
     return 0;

@@ -29,6 +29,7 @@ Action add_part(CLI::App& app);
 Action add_query(CLI::App& app);
 Action add_validate(CLI::App& app);
 Action add_verify(CLI::App& app);
+Action add_view(CLI::App& app);
 
 /// --sensor NAME[:PRESET], as ScenarioOverrides has it.
 void add_sensor_option(CLI::App& command, std::string& sensor);

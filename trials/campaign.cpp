@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -17,10 +16,10 @@
 #include "core/error.hpp"
 #include "core/file_io.hpp"
 #include "core/log.hpp"
-#include "evaluation/report.hpp"
 #include "trials/campaign_worker.hpp"
 #include "trials/environment.hpp"
 #include "trials/run_merge.hpp"
+#include "trials/run_report.hpp"
 #include "trials/run_store.hpp"
 #include "trials/scenario.hpp"
 
@@ -237,27 +236,10 @@ class Coordinator {
   CampaignResult result_;
 };
 
-std::vector<std::string> picture_paths(const std::string& run_folder) {
-  std::vector<std::string> paths;
-  const std::filesystem::path artifacts = std::filesystem::path(run_folder) / "artifacts";
-  if (!std::filesystem::exists(artifacts)) return paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(artifacts))
-    if (entry.path().extension() == ".png") paths.push_back(entry.path().lexically_relative(run_folder).string());
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
 }  // namespace
 
 CampaignSummary write_reports(const std::string& run_folder, double wall_seconds) {
-  const std::vector<TrialRecord> records = read_records(run_folder);
-  const CampaignSummary summary = summarise(records, wall_seconds);
-  write_canonical(run_folder, records);
-  write_file(run_folder + "/summary.json", summary_json(summary) + "\n");
-  write_file(run_folder + "/results.md", markdown_report(summary));
-  write_file(run_folder + "/picks.csv", picks_csv(records));
-  write_file(run_folder + "/report.html", html_report(summary, records, picture_paths(run_folder)));
-  return summary;
+  return write_reports(run_folder, wall_seconds, ReportOptions());
 }
 
 CampaignResult run_campaign(const CampaignOptions& options, const std::string& program, ProgressSink& progress) {

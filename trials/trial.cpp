@@ -33,14 +33,27 @@ bool chosen_is_right(const PickRecord& record, std::size_t chosen) {
   return false;
 }
 
-void execute(const Scenario& s, CellWorld& cell_world, TrialContext& context, const PickPlan& plan, int pick,
-             TrialPictures* pictures, PickRecord& record) {
+// What stays with a trial from pick to pick.
+struct Run {
+  const Scenario& s;
+  CellWorld& cell_world;
+  TrialContext& context;
+  Seed seed;
+  TrialPictures* pictures;
+  ReplayRecorder* replay;
+  std::vector<Eigen::Vector3d> failed_W;  // middles of believed parts at which picks have failed since the last success
+  std::vector<Eigen::Vector3d> ever_failed_W;  // and since the first look: whoever succeeds elsewhere forgets nothing
+  std::vector<PlacedPart> in_tray;             // parts that succeeded, where the robot let go of them
+};
+
+void execute(Run& run, const PickPlan& plan, int pick, PickRecord& record) {
   const ExecutionHook hook = [&](const char* moment, const CellWorld& now) {
-    if (pictures) pictures->moment(pick, moment, *context.renderer, now);
+    if (run.pictures) run.pictures->moment(pick, moment, *run.context.renderer, now);
+    if (run.replay) run.replay->event(pick, now, moment);
   };
-  ExecutionConfig config = s.execution;
-  config.ideal_seal = s.oracles.seal;
-  const ExecutionResult result = execute_pick(cell_world, plan, config, hook);
+  ExecutionConfig config = run.s.execution;
+  config.ideal_seal = run.s.oracles.seal;
+  const ExecutionResult result = execute_pick(run.cell_world, plan, config, hook);
   record.outcome = result.outcome;
   record.reason = result.reason;
   record.lifted_body = result.lifted;
@@ -76,18 +89,6 @@ FrameRequest frame_request(const Scenario& s, Seed seed) {
   return request;
 }
 
-// What stays with a trial from pick to pick.
-struct Run {
-  const Scenario& s;
-  CellWorld& cell_world;
-  TrialContext& context;
-  Seed seed;
-  TrialPictures* pictures;
-  std::vector<Eigen::Vector3d> failed_W;  // middles of believed parts at which picks have failed since the last success
-  std::vector<Eigen::Vector3d> ever_failed_W;  // and since the first look: whoever succeeds elsewhere forgets nothing
-  std::vector<PlacedPart> in_tray;             // parts that succeeded, where the robot let go of them
-};
-
 // The arm moves: what comes of it.
 void execute_plan(Run& run, const PickPlan& plan, int pick, PickRecord& record) {
   record.chosen = plan.estimate;
@@ -96,7 +97,17 @@ void execute_plan(Run& run, const PickPlan& plan, int pick, PickRecord& record) 
     record.reason = "not executed: the chosen estimate is wrong (trial.execute: only_if_right)";
     return;
   }
-  execute(run.s, run.cell_world, run.context, plan, pick, run.pictures, record);
+  execute(run, plan, pick, record);
+}
+
+// What lay in the bin: for recall by visibility and by depth in the heap.
+void note_seen(const Run& run, const GroundTruth& truth, PickRecord& record) {
+  const Pose X_BW = run.s.cell.X_WB.inverse();
+  for (const GroundTruth::Instance& instance : truth.instances) {
+    const Part& part = run.context.parts[instance.part];
+    const double height = (X_BW * instance.X_WP * part.box_center_P).z();
+    record.seen.push_back({static_cast<int>(instance.part), part.diameter, instance.visible_fraction, height});
+  }
 }
 
 // What was seen and found, told the record before the arm moves for the pick.
@@ -105,6 +116,7 @@ void note_sight(const Run& run, const Sight& sight, PickRecord& record) {
   record.wall = sight.found.wall;
   record.estimates_hash = estimates_hash(sight.found);
   record.check = run.context.checker->check(sight.found, sight.seen.X_WC_believed, sight.seen.truth);
+  note_seen(run, sight.seen.truth, record);
   record.rejections = sight.plan.rejections;
   record.outcome = sight.plan.outcome;
   record.reason = sight.plan.reason;
@@ -135,6 +147,7 @@ PickRecord pick_once(Run& run, int pick) {
     run.pictures->look(pick, "second_", *run.context.renderer, run.cell_world, sight.seen.captures.back().frame,
                        sight.found);
   note_sight(run, sight, record);
+  if (run.replay) run.replay->look(pick, run.cell_world, sight, record);
   if (sight.plan.plan) {
     execute_plan(run, *sight.plan.plan, pick, record);
     const Part& part = run.context.parts[sight.found.estimates[sight.plan.plan->estimate].part];
@@ -158,19 +171,28 @@ void pick_until_done(Run& run, TrialRecord& record) {
     const bool succeeded = record.picks.back().outcome == PickOutcome::kSucceeded;
     failures = succeeded ? 0 : failures + 1;
     if (succeeded) run.failed_W.clear();
+    if (run.replay) run.replay->event(pick, run.cell_world, to_string(record.picks.back().outcome));
     if (!succeeded && run.pictures) run.pictures->moment(pick, "failed", *run.context.renderer, run.cell_world);
   }
   record.placed = count_in(run.cell_world, &CellWorld::in_tray);
 }
 
-void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pictures, TrialRecord& record) {
+struct Onlookers {
+  TrialPictures* pictures;
+  ReplayRecorder* replay;
+};
+
+void run(const Scenario& s, Seed seed, TrialContext& context, const Onlookers& onlookers, TrialRecord& record) {
   const TrueCell built = true_cell(s, context, seed);
   if (built.X_CC) {
     record.calibration_translation = built.X_CC->translation();
     record.calibration_rotation = log_so3(built.X_CC->linear());
   }
   CellWorld cell_world(built.cell, s.physics, context.parts);
+  ReplayRecorder* replay = onlookers.replay;
+  const std::unique_ptr<StepWatch> watch = replay ? replay->watch(cell_world) : nullptr;
   const DropResult heap = drop_heap(s, context, seed, cell_world);
+  if (replay) replay->heap_at_rest(cell_world);
   record.dropped = static_cast<int>(heap.bodies.size());
   record.escaped = static_cast<int>(heap.escaped.size());
   record.settled = heap.settled;
@@ -185,7 +207,7 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
   record.woken_share = heap.woken.moved_share;
   record.drop_hash = cell_world.world().state_hash();
   if (heap.settled && heap.escaped.empty()) {
-    Run run_state{s, cell_world, context, seed, pictures, {}, {}, {}};
+    Run run_state{s, cell_world, context, seed, onlookers.pictures, replay, {}, {}, {}};
     pick_until_done(run_state, record);
     return;
   }
@@ -199,14 +221,15 @@ void run(const Scenario& s, Seed seed, TrialContext& context, TrialPictures* pic
 
 }  // namespace
 
-TrialRecord run_trial(const Scenario& scenario, Seed seed, TrialContext& context, TrialPictures* pictures) {
+TrialRecord run_trial(const Scenario& scenario, Seed seed, TrialContext& context, TrialPictures* pictures,
+                      ReplayRecorder* replay) {
   const Stopwatch watch;
   TrialRecord record;
   record.scenario = scenario.name;
   record.scenario_hash = context.hash;
   record.seed = seed;
   try {
-    run(scenario, seed, context, pictures, record);
+    run(scenario, seed, context, {pictures, replay}, record);
   } catch (const StorageError&) {
     throw;  // a full disk is not a property of the trial
   } catch (const std::exception& error) {

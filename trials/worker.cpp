@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "trials/environment.hpp"
 #include "trials/planted_fault.hpp"
+#include "trials/replay_files.hpp"
 #include "trials/trial.hpp"
 
 namespace binpick {
@@ -46,8 +47,11 @@ void run_worker(const WorkerOptions& options, std::istream& orders, std::ostream
     if (!options.artifacts.empty())
       pictures =
           std::make_unique<TrialPictures>(options.artifacts + "/seed-" + std::to_string(order.seed), options.pictured);
-    TrialRecord record = run_trial(scenario, Seed{order.seed}, context, pictures.get());
+    std::unique_ptr<ReplayRecorder> recorder;
+    if (!options.artifacts.empty()) recorder = std::make_unique<ReplayRecorder>();
+    TrialRecord record = run_trial(scenario, Seed{order.seed}, context, pictures.get(), recorder.get());
     record.build = build;
+    if (recorder && !failure_of(record)) keep_replay(recorder->finish(record), options.artifacts);
     records << to_json_line(record) << std::endl;
   }
 }

@@ -31,6 +31,8 @@ inline PickRecord pick(PickOutcome outcome, std::size_t visible, std::size_t fou
   record.check.visible = visible;
   record.check.found = record.check.found_tight = found;
   record.check.counted = record.check.right = found;
+  for (std::size_t i = 0; i < visible; ++i)
+    record.seen.push_back({0, 0.1, 1 - 0.1 * static_cast<double>(i), 0.05 - 0.01 * static_cast<double>(i)});
   record.chosen = 0;
   record.rejections = {{"rim blocked", 3}, {"out of reach", 1}};
   record.sim_time = 9;
