@@ -91,7 +91,7 @@ Pose ReplayPicture::eye() const {
   const double away = 2.45 * (high - low).maxCoeff();
   Eigen::Vector3d target = middle + 0.25 * (tray - middle);
   target.z() = middle.z() + 0.04 * away;
-  const Eigen::Vector3d eye = target + away * (0.95 * out + 0.3 * aside + Eigen::Vector3d(0, 0, 0.75));
+  const Eigen::Vector3d eye = target + away * (0.8 * out + 0.25 * aside + Eigen::Vector3d(0, 0, 0.95));
   const Eigen::Vector3d z = (target - eye).normalized(), x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
   Eigen::Matrix3d R;
   R << x, z.cross(x), z;

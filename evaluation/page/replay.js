@@ -493,8 +493,11 @@
     place.textContent = 'This browser has no WebGL: no picture, but the text beside it follows the time all the same.';
   }
   function fromHash() {
-    const match = /^#seed-(\d+)$/.exec(location.hash);
-    if (match && open(match[1])) document.getElementById('replay').scrollIntoView();
+    const match = /^#seed-(\d+)(?:-pick-(\d+))?$/.exec(location.hash);
+    if (!match || !open(match[1])) return;
+    const look = replay.looks.find(function (l) { return l.pick === Number(match[2]); });
+    if (look) seek(look.t + 0.001);
+    document.getElementById('replay').scrollIntoView();
   }
   window.addEventListener('hashchange', fromHash);
   open(select.value);

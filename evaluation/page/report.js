@@ -64,11 +64,11 @@
     if (parent) parent.appendChild(made);
     return made;
   }
-  function link(seed, parent) {
+  function link(seed, pick, parent) {
     const has = document.querySelector('.replay-data[data-seed="' + CSS.escape(seed) + '"]');
     if (!has) return;
     const button = element('button', 'replay', parent);
-    button.addEventListener('click', function () { location.hash = 'seed-' + seed; });
+    button.addEventListener('click', function () { location.hash = 'seed-' + seed + '-pick-' + pick; });
   }
   function drill(outcome) {
     const place = document.getElementById('drill');
@@ -94,7 +94,7 @@
         copy.setAttribute('href', a.getAttribute('href'));
         element('span', ' ', own);
       });
-      link(row.seed, element('td', null, line));
+      link(row.seed, row.pick, element('td', null, line));
     });
     document.querySelectorAll('#outcomes button').forEach(function (button) {
       button.setAttribute('aria-pressed', String(button.dataset.outcome === outcome));

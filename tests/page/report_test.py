@@ -140,11 +140,12 @@ def check_failures(browser):
     browser.click_at(*spot)
     first = browser.run("return binpickReport.tables.outcomes.filter(o => o.outcome !== 'Succeeded')[0]")
     opened = wait(lambda: browser.run("return document.querySelectorAll('#drill tbody tr').length"))
-    check(opened == first["picks"], f"a bar opens its picks: {opened} of {first}, at {spot}")
+    check(opened == first["picks"], f"a bar opens its picks: {opened} of {first['picks']}")
     check("--seed" in browser.run("return document.getElementById('drill').textContent"), "with their replay commands")
     seed = browser.run("return document.querySelector('#drill tbody td').textContent")
     browser.run("document.querySelector('#drill button').click()")
-    check(wait(lambda: state(browser)["seed"] == seed), "a failure opens its replay")
+    pick = int(browser.run("return document.querySelectorAll('#drill tbody td')[1].textContent"))
+    check(wait(lambda: state(browser)["seed"] == seed and state(browser)["look"] == pick), "a failure opens its replay")
 
 
 def check_replay(browser, folder):
