@@ -27,9 +27,11 @@ if(BINPICK_WITH_SIM)
   find_package(meshoptimizer REQUIRED)  # meshes of replays, made small
   find_package(GIF 5 REQUIRED)
 
-  # Scripts that report pages carry; three.js is of before it became modules only, which a page opened from disk cannot load.
+  # Scripts that report pages carry; three.js is of before it became modules only, which a page opened from disk cannot
+  # load.
   find_file(BINPICK_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH)
-  find_file(BINPICK_THREE_JS three.min.js PATHS /usr/share/javascript/three /usr/share/javascript/three/build NO_DEFAULT_PATH)
+  find_file(BINPICK_THREE_JS three.min.js
+            PATHS /usr/share/javascript/three /usr/share/javascript/three/build NO_DEFAULT_PATH)
   find_file(BINPICK_ORBIT_CONTROLS_JS OrbitControls.js
             PATHS /usr/share/javascript/three/examples/js/controls NO_DEFAULT_PATH)
   if(NOT BINPICK_CHART_JS OR NOT BINPICK_THREE_JS OR NOT BINPICK_ORBIT_CONTROLS_JS)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/base64.hpp"
+#include "evaluation/base64.hpp"
 #include "evaluation/html_page.hpp"
 #include "evaluation/html_plots.hpp"
 #include "evaluation/paper_figures.hpp"

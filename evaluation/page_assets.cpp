@@ -1,6 +1,6 @@
 #include "evaluation/page_assets.hpp"
 
-#include "core/base64.hpp"
+#include "evaluation/base64.hpp"
 
 namespace binpick::page {
 namespace {

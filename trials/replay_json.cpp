@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/base64.hpp"
 #include "core/hash.hpp"
+#include "evaluation/base64.hpp"
 #include "trials/replay.hpp"
 
 namespace binpick {

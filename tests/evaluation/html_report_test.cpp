@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base64.hpp"
+#include "evaluation/base64.hpp"
 #include "evaluation/report.hpp"
 #include "tests/evaluation/example_records.hpp"
 

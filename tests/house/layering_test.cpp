@@ -47,6 +47,8 @@ const std::map<std::string, Names> kThirdParties = {
     {"libqhull", {"core", "perception"}},
     {"urdf", {"robot"}},
     {"boost/", {"evaluation"}},
+    {"meshoptimizer", {"trials"}},
+    {"gif_lib", {"trials"}},
     {"tinyxml2", {"evaluation"}},
     {"STEPControl_", {"core", "tools"}},  // Open CASCADE has no folder of its own
     {"BRep", {"core", "tools"}},
