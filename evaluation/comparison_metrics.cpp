@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "evaluation/comparison.hpp"
+#include "evaluation/paired_shares.hpp"
 #include "evaluation/weighted_quantile.hpp"
 
 namespace binpick {
@@ -14,10 +15,6 @@ using Piles = std::vector<const PileFigures*>;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// With fewer piles that differ than this a bootstrap knows too little of them (and of none, nothing): the interval is
-// then what so small a share of changed piles can do at all.
-constexpr std::size_t kFewDiffering = 10;
-
 struct Metric {
   MetricComparison head;
   std::function<ClusterCount(const PileFigures&)> count;          // shares and verdicts: good of all
@@ -25,26 +22,7 @@ struct Metric {
   double q = 0.5;
 };
 
-struct Pair {
-  ClusterCount base, fresh;
-};
-
-ClusterCount operator+(const ClusterCount& a, const ClusterCount& b) { return {a.hits + b.hits, a.total + b.total}; }
 double rate(const ClusterCount& c) { return c.total > 0 ? c.hits / c.total : kNaN; }
-bool differ(const Pair& pair) { return pair.base.hits != pair.fresh.hits || pair.base.total != pair.fresh.total; }
-
-// A pile's share in the loss of the pooled rate. The pooled rate of both versions does not change when a pile's results
-// change places, so each of these numbers then changes its sign, which is what the sign-flip test needs.
-std::vector<double> losses_of(const std::vector<Pair>& pairs) {
-  ClusterCount pooled;
-  for (const Pair& pair : pairs) pooled = pooled + pair.base + pair.fresh;
-  const double all = pooled.total > 0 ? rate(pooled) : 0;
-  std::vector<double> losses;
-  for (const Pair& pair : pairs) {
-    losses.push_back(pair.base.hits - pair.fresh.hits - all * (pair.base.total - pair.fresh.total));
-  }
-  return losses;
-}
 
 Seed stream(const MetricComparison& metric) { return Seed{}.child("compare").child(metric.name); }
 
@@ -55,58 +33,21 @@ void count_sides(const std::vector<double>& losses, MetricComparison& metric) {
   }
 }
 
-Interval ends(std::vector<double> values, double confidence) {
-  return {quantile(values, (1 - confidence) / 2), quantile(values, (1 + confidence) / 2)};
-}
-
-// The mean loss is at most (share of piles that differ) x (largest loss seen) + (share of piles beyond the largest
-// seen) x 1; each share is bounded exactly, with half the doubt each. The pile of the largest of n losses is as good as
-// any: a larger one has a share of at most clopper_pearson(0, n).
-Interval few_differing(const std::vector<Pair>& pairs, std::size_t differing, const std::vector<double>& losses,
-                       double confidence) {
-  const std::size_t n = pairs.size();
-  if (differing == 0) return {-clopper_pearson(0, n, confidence).high, clopper_pearson(0, n, confidence).high};
-  double total = 0, largest = 0;
-  for (const Pair& pair : pairs) total += pair.base.total;
-  for (const double loss : losses) largest = std::max(largest, std::abs(loss));
-  const double worst = total > 0 ? std::min(1.0, largest * static_cast<double>(n) / total) : 1;
-  const double halved = (1 + confidence) / 2;
-  const double most = clopper_pearson(differing, n, halved).high * worst + clopper_pearson(0, n, halved).high;
-  return {-std::min(1.0, most), std::min(1.0, most)};
-}
-
-Interval share_interval(const std::vector<Pair>& pairs, const std::vector<double>& pile_losses,
-                        const MetricComparison& metric, const Look& look) {
-  const auto differing = static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), differ));
-  if (differing < kFewDiffering) return few_differing(pairs, differing, pile_losses, look.confidence);
-  const std::vector<double> losses =
-      bootstrap(pairs.size(), stream(metric), look.resamples, [&](std::span<const std::size_t> drawn) {
-        Pair sum;
-        for (const std::size_t k : drawn) {
-          sum.base = sum.base + pairs[k].base;
-          sum.fresh = sum.fresh + pairs[k].fresh;
-        }
-        return sum.base.total > 0 && sum.fresh.total > 0 ? rate(sum.base) - rate(sum.fresh) : 0.0;
-      });
-  return ends(losses, look.confidence);
-}
-
 void compare_share(const Metric& metric, const Piles& base, const Piles& fresh, const Look& look,
                    MetricComparison& result) {
-  std::vector<Pair> pairs;
-  Pair sum;
+  std::vector<SharePair> pairs;
+  SharePair sum;
   for (std::size_t i = 0; i < base.size(); ++i) {
     pairs.push_back({metric.count(*base[i]), metric.count(*fresh[i])});
-    sum.base = sum.base + pairs.back().base;
-    sum.fresh = sum.fresh + pairs.back().fresh;
+    sum += pairs.back();
   }
   result.base = rate(sum.base);
   result.fresh = rate(sum.fresh);
   result.loss = result.base - result.fresh;
-  const std::vector<double> losses = losses_of(pairs);
+  const std::vector<double> losses = pile_losses(pairs);
   count_sides(losses, result);
   result.p = sign_flip_worse(losses, stream(result));
-  if (look.intervals) result.interval = share_interval(pairs, losses, result, look);
+  if (look.intervals) result.interval = loss_interval(pairs, stream(result), look.confidence, look.resamples);
 }
 
 void compare_verdict(const Metric& metric, const Piles& base, const Piles& fresh, const Look& look,
@@ -134,7 +75,7 @@ double difference(double fresh, double base) {
 
 Interval quantile_interval(const WeightedQuantile& base, const WeightedQuantile& fresh, double q, std::size_t differing,
                            std::size_t piles, const MetricComparison& metric, const Look& look) {
-  if (differing < kFewDiffering) {
+  if (differing < kFewDifferingPiles) {
     const double most = clopper_pearson(differing, piles, look.confidence).high;
     const double here = base.quantile(q);
     return {difference(base.quantile(std::max(0.0, q - most)), here),
@@ -166,7 +107,7 @@ void compare_quantile(const Metric& metric, const Piles& base, const Piles& fres
   result.loss = difference(result.fresh, result.base);
   // How many of a pile's values lie within the pooled quantile, which does not change when results change places.
   const double bar = pooled.quantile(metric.q);
-  std::vector<Pair> pairs;
+  std::vector<SharePair> pairs;
   std::size_t differing = 0;
   for (std::size_t i = 0; i < base.size(); ++i) {
     std::vector<double> a = metric.values(*base[i]), b = metric.values(*fresh[i]);
@@ -179,7 +120,7 @@ void compare_quantile(const Metric& metric, const Piles& base, const Piles& fres
     std::sort(b.begin(), b.end());
     differing += a != b ? 1 : 0;
   }
-  const std::vector<double> losses = losses_of(pairs);
+  const std::vector<double> losses = pile_losses(pairs);
   count_sides(losses, result);
   result.p = sign_flip_worse(losses, stream(result));
   if (look.intervals && !std::isnan(result.base) && !std::isnan(result.fresh)) {
