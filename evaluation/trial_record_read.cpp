@@ -2,34 +2,36 @@
 // values is an error that names file, line and key.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "core/error.hpp"
-#include "core/file_io.hpp"
 #include "core/hash.hpp"
 #include "evaluation/json_archive.hpp"
 #include "evaluation/record_fields.hpp"
+#include "evaluation/record_lines.hpp"
 #include "evaluation/trial_record.hpp"
 
 namespace binpick {
 namespace {
 
-void read_lines(const std::filesystem::path& path, std::vector<TrialRecord>& records,
-                std::map<std::uint64_t, std::string>& places) {
-  const std::string text = read_file(path.string());
-  std::size_t begin = 0, number = 0;
-  while (begin < text.size()) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string place = path.string() + ":" + std::to_string(++number);
-    if (end == std::string::npos) {
+using Visit = std::function<void(TrialRecord&&, const RecordLine&)>;
+
+void read_lines(const std::filesystem::path& path, std::map<std::uint64_t, std::string>& places, const Visit& visit) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw AssetError(path.string() + ": cannot open");
+  RecordLine line{path.string(), 0, ""};
+  for (std::size_t number = 1; std::getline(stream, line.text); ++number) {
+    const std::string place = line.file + ":" + std::to_string(number);
+    if (stream.eof())
       throw SpecError(place + ": the last line is incomplete, its writer was cut off; delete that line to go on");
-    }
-    records.push_back(trial_record_from_json(text.substr(begin, end - begin), place));
-    const auto [first, fresh] = places.emplace(records.back().seed.key, place);
-    if (!fresh) {
+    TrialRecord record = trial_record_from_json(line.text, place);
+    const auto [first, fresh] = places.emplace(record.seed.key, place);
+    if (!fresh)
       throw SpecError(place + ": seed " + std::to_string(first->first) + " is recorded already at " + first->second);
-    }
-    begin = end + 1;
+    visit(std::move(record), line);
+    line.offset += line.text.size() + 1;
   }
+  if (stream.bad()) throw AssetError(line.file + ": cannot read");
 }
 
 /// A record's own hash says that nobody altered it, not that its counts fit together: rates must not leave 0 .. 1.
@@ -84,7 +86,7 @@ TrialRecord trial_record_from_json(const std::string& line, const std::string& p
   return record;
 }
 
-std::vector<TrialRecord> read_records(const std::string& run_folder) {
+void for_each_record(const std::string& run_folder, const Visit& visit) {
   const std::filesystem::path folder = std::filesystem::path(run_folder) / "records";
   std::error_code error;
   std::vector<std::filesystem::path> paths;
@@ -93,12 +95,25 @@ std::vector<TrialRecord> read_records(const std::string& run_folder) {
   }
   if (error) throw AssetError(folder.string() + ": cannot list: " + error.message());
   std::sort(paths.begin(), paths.end());
-  std::vector<TrialRecord> records;
   std::map<std::uint64_t, std::string> places;
-  for (const std::filesystem::path& path : paths) read_lines(path, records, places);
+  for (const std::filesystem::path& path : paths) read_lines(path, places, visit);
+}
+
+std::vector<TrialRecord> read_records(const std::string& run_folder) {
+  std::vector<TrialRecord> records;
+  for_each_record(run_folder, [&](TrialRecord&& record, const RecordLine&) { records.push_back(std::move(record)); });
   std::sort(records.begin(), records.end(),
             [](const TrialRecord& a, const TrialRecord& b) { return a.seed.key < b.seed.key; });
   return records;
+}
+
+std::string read_bytes(const std::string& file, std::uint64_t offset, std::size_t count) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(count, '\0');
+  if (!stream.seekg(static_cast<std::streamoff>(offset)) ||
+      !stream.read(bytes.data(), static_cast<std::streamsize>(count)))
+    throw AssetError(file + ": cannot read " + std::to_string(count) + " bytes at " + std::to_string(offset));
+  return bytes;
 }
 
 }  // namespace binpick

@@ -9,6 +9,7 @@
 #include "evaluation/report.hpp"
 #include "tools/commands.hpp"
 #include "trials/campaign.hpp"
+#include "trials/run_merge.hpp"
 
 namespace binpick {
 namespace {
@@ -20,18 +21,6 @@ struct Options {
   double memory_mb = 4096;
 };
 
-std::pair<int, int> parse_shard(const std::string& text) {
-  int index = 0, count = 0;
-  const char* end = text.data() + text.size();
-  const auto [slash, bad_index] = std::from_chars(text.data(), end, index);
-  if (bad_index == std::errc() && slash != end && *slash == '/') {
-    const auto [stop, bad_count] = std::from_chars(slash + 1, end, count);
-    if (bad_count == std::errc() && stop == end && index >= 1 && index <= count && count <= 1000000)
-      return {index, count};
-  }
-  throw SpecError("--shard '" + text + "': must be I/N with 1 <= I <= N");
-}
-
 /// What the runner took of its workers' time: starting them, pipes, disk, and waiting for the last one.
 std::string cost(const CampaignOptions& options, const CampaignResult& result) {
   const double held = result.wall * options.workers;
@@ -42,9 +31,19 @@ std::string cost(const CampaignOptions& options, const CampaignResult& result) {
   return text;
 }
 
+bool is_empty_shard(const CampaignOptions& campaign) {
+  for (std::uint64_t seed = campaign.first_seed; seed < campaign.end_seed; ++seed)
+    if (in_shard(seed, campaign.shard, campaign.shards)) return false;
+  return true;
+}
+
 int run(Options options) {
   std::tie(options.campaign.first_seed, options.campaign.end_seed) = parse_seeds(options.seeds);
   if (!options.shard.empty()) std::tie(options.campaign.shard, options.campaign.shards) = parse_shard(options.shard);
+  if (is_empty_shard(options.campaign)) {
+    std::cerr << "shard " << options.shard << " has none of these seeds: there is nothing to do" << std::endl;
+    return 0;
+  }
   options.campaign.limits.memory = 1e6 * options.memory_mb;
   StderrProgress progress;
   const CampaignResult result = run_campaign(options.campaign, "/proc/self/exe", progress);
@@ -57,6 +56,18 @@ int run(Options options) {
 }
 
 }  // namespace
+
+std::pair<int, int> parse_shard(const std::string& text) {
+  int index = 0, count = 0;
+  const char* end = text.data() + text.size();
+  const auto [slash, bad_index] = std::from_chars(text.data(), end, index);
+  if (bad_index == std::errc() && slash != end && *slash == '/') {
+    const auto [stop, bad_count] = std::from_chars(slash + 1, end, count);
+    if (bad_count == std::errc() && stop == end && index >= 1 && index <= count && count <= 1000000)
+      return {index, count};
+  }
+  throw SpecError("--shard '" + text + "': must be I/N with 1 <= I <= N");
+}
 
 std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text) {
   const std::size_t colon = text.find(':');

@@ -27,6 +27,7 @@ Action add_render(CLI::App& app);
 Action add_list(CLI::App& app);
 Action add_part(CLI::App& app);
 Action add_query(CLI::App& app);
+Action add_sweep(CLI::App& app);
 Action add_validate(CLI::App& app);
 Action add_verify(CLI::App& app);
 Action add_view(CLI::App& app);
@@ -36,5 +37,7 @@ void add_sensor_option(CLI::App& command, std::string& sensor);
 
 /// "A:B" means seeds A .. B-1. Throws SpecError.
 std::pair<std::uint64_t, std::uint64_t> parse_seeds(const std::string& text);
+/// "I/N", 1 <= I <= N. Throws SpecError.
+std::pair<int, int> parse_shard(const std::string& text);
 
 }  // namespace binpick

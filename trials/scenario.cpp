@@ -215,7 +215,7 @@ int Scenario::part_count() const {
 Scenario read_scenario(const std::string& path, const ScenarioOverrides& overrides) {
   Scenario scenario;
   scenario.file = path;
-  read_yaml_file(path, [&](ConfigVisitor& v) {
+  read_yaml_file(path, overrides.settings, [&](ConfigVisitor& v) {
     scenario.visit(v);
     if (!overrides.sensor.empty()) override_sensor(scenario, overrides.sensor);
     validate(scenario);

@@ -8,6 +8,7 @@
 
 #include "core/config.hpp"
 #include "core/part.hpp"
+#include "core/yaml_value.hpp"
 #include "perception/pose_estimator.hpp"
 #include "robot/cell.hpp"
 #include "robot/look_pose.hpp"
@@ -72,9 +73,10 @@ struct Scenario {
   int part_count() const;  ///< parts dropped in one trial
 };
 
-/// What the command line may set over the scene file.
+/// What the command line or a sweep may set over the scene file.
 struct ScenarioOverrides {
   std::string sensor;  ///< NAME or NAME:PRESET; the camera's intrinsics then are the preset's, whatever the scene says
+  std::vector<YamlSetting> settings = {};  ///< as if the file had said so
 };
 
 /// Reads, expands and validates a scene. Throws SpecError or AssetError in one line.
