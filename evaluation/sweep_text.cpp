@@ -28,7 +28,9 @@ const Rate& objective(const SweepPlan& plan, const Rate& cleared, const Rate& pi
   return plan.objective == "picks" ? picks : cleared;
 }
 
-std::string share(const Rate& rate) { return text::percent(rate.rate) + " (" + text::percent(rate.interval) + ")"; }
+std::string share(const Rate& rate) {
+  return std::isnan(rate.rate) ? "-" : text::percent(rate.rate) + " (" + text::percent(rate.interval) + ")";
+}
 
 std::string points(double value) { return (value > 0 ? "+" : "") + fixed(100 * value, 1); }
 
