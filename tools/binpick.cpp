@@ -22,9 +22,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "binpick 0.1.0");
   std::vector<std::pair<CLI::App*, Action>> commands;
   for (Action (*add)(CLI::App&) :
-       {add_trial,    add_campaign, add_report, add_compare,   add_gate,  add_verify,   add_view,
-        add_query,    add_merge,    add_sweep,  add_calibrate, add_paper, add_estimate, add_render,
-        add_validate, add_bench,    add_bop,    add_check,     add_part,  add_list,     add_worker}) {
+       {add_trial, add_campaign, add_report,    add_compare, add_gate,     add_verify, add_view,     add_query,
+        add_merge, add_sweep,    add_calibrate, add_paper,   add_estimate, add_render, add_validate, add_bench,
+        add_bop,   add_budget,   add_check,     add_part,    add_list,     add_worker}) {
     Action action = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), std::move(action));
   }

@@ -19,6 +19,7 @@ Action add_merge(CLI::App& app);
 Action add_gate(CLI::App& app);
 Action add_bench(CLI::App& app);
 Action add_bop(CLI::App& app);
+Action add_budget(CLI::App& app);
 Action add_calibrate(CLI::App& app);
 Action add_paper(CLI::App& app);
 Action add_check(CLI::App& app);
