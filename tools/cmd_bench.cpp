@@ -86,22 +86,16 @@ Action add_bench(CLI::App& app) {
   const Action perception = add_bench_perception(*command), score = add_bench_score(*command);
   const Action physics = add_bench_physics(*command), suction = add_bench_suction(*command);
   const Action heaps = add_bench_heaps(*command), planning = add_bench_planning(*command);
-<<<<<<< HEAD
   const Action gate = add_bench_gate(*command), metrics = add_bench_metrics(*command);
-=======
-  const Action gate = add_bench_gate(*command), merge = add_bench_merge(*command);
->>>>>>> c38f1e8 (binpick sweep: factors over any field of a scenario, the same seeds in every cell; Slurm job arrays; merge without holding the records)
+  const Action merge = add_bench_merge(*command);
   return [=] {
     if (sensors->parsed()) return run_sensors(*options);
     if (command->get_subcommand("physics")->parsed()) return physics();
     if (command->get_subcommand("suction")->parsed()) return suction();
     if (command->get_subcommand("heaps")->parsed()) return heaps();
     if (command->get_subcommand("gate")->parsed()) return gate();
-<<<<<<< HEAD
     if (command->get_subcommand("metrics")->parsed()) return metrics();
-=======
     if (command->get_subcommand("merge")->parsed()) return merge();
->>>>>>> c38f1e8 (binpick sweep: factors over any field of a scenario, the same seeds in every cell; Slurm job arrays; merge without holding the records)
     if (command->get_subcommand("planning")->parsed()) return planning();
     return command->get_subcommand("score")->parsed() ? score() : perception();
   };

@@ -11,10 +11,7 @@ Action add_bench_physics(CLI::App& bench);
 Action add_bench_suction(CLI::App& bench);
 Action add_bench_heaps(CLI::App& bench);
 Action add_bench_planning(CLI::App& bench);
-<<<<<<< HEAD
 Action add_bench_metrics(CLI::App& bench);
-=======
 Action add_bench_merge(CLI::App& bench);
->>>>>>> c38f1e8 (binpick sweep: factors over any field of a scenario, the same seeds in every cell; Slurm job arrays; merge without holding the records)
 
 }  // namespace binpick
