@@ -40,7 +40,9 @@ TEST(Budget, EveryRowChangesItsOwnStage) {
   EXPECT_TRUE(files.absent.empty());
   auto cells = cells_of(files.stages);
   ASSERT_EQ(cells.size(), 8u);
-  EXPECT_EQ(scenario_hash(cells.at("as it is")), scenario_hash(base));
+  Scenario plain = cells.at("as it is");
+  plain.name = base.name;  // a sweep's scenes have names of their own
+  EXPECT_EQ(scenario_hash(plain), scenario_hash(base));
   Scenario depth = cells.at("depth");
   EXPECT_EQ(depth.sensor_type, "ideal");
   EXPECT_EQ(depth.cell.camera.intrinsics.width, base.cell.camera.intrinsics.width);
