@@ -19,7 +19,7 @@ TEST(BudgetRun, WritesItsTablesAndRunsNothingTwice) {
              "part: " + root + "/assets/parts/bearing_6914/part.yaml\ncount: 2\ncell: " + root +
                  "/assets/cells/mz07_three_cups.yaml\nestimator: {type: oracle}\n" + "trial: {max_picks: 1}\n");
   const std::string budget = "budget " + folder.path("scene.yaml") + " --seeds 5000:5001 --no-stages --rotation " +
-                             "'20 deg' --translation '30 mm' --out " + folder.path("out");
+                             "20deg --translation 30mm --out " + folder.path("out");
   const ProgramRun run = run_program(budget);
   ASSERT_EQ(run.code, 0) << run.err;
   const auto json = nlohmann::json::parse(read_file(folder.path("out/budget.json")));
@@ -34,7 +34,7 @@ TEST(BudgetRun, WritesItsTablesAndRunsNothingTwice) {
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(again.out, run.out);
   EXPECT_EQ(read_file(records), before);
-  EXPECT_EQ(run_program(budget + " --translation '-1 mm'").code, 2);
+  EXPECT_EQ(run_program(budget + " --translation=-1mm").code, 2);
 }
 
 }  // namespace
