@@ -66,13 +66,13 @@ std::string stages_file(const BudgetPlan& plan, const Scenario& s, std::vector<s
 std::string error_level(const char* of, double error) {
   const bool turn = std::string(of) == "rotation";
   const std::string size = number(error) + (turn ? " rad" : " m");
-  return level(std::string(of) + " " + number(error),
-               "estimator: {type: oracle, " + std::string(of) + "_error: " + size + "}, second_look: off");
+  return level(std::string(of) + " " + number(error), "estimator: {type: oracle, " + std::string(of) + "_error: " +
+                                                          size + "}, second_look: off, calibration: perfect");
 }
 
 std::string errors_file(const BudgetPlan& plan, const Scenario& s) {
-  std::string text =
-      head(plan, s, "error budget, disturbed poses") + level("none", "estimator: {type: oracle}, second_look: off");
+  std::string text = head(plan, s, "error budget, disturbed poses") +
+                     level("none", "estimator: {type: oracle}, second_look: off, calibration: perfect");
   for (const double error : plan.translation) text += error_level("translation", error);
   for (const double error : plan.rotation) text += error_level("rotation", error);
   return text;

@@ -62,9 +62,10 @@ TEST(Budget, EveryRowChangesItsOwnStage) {
 }
 
 TEST(Budget, ErrorsAreThoseOfTheOracle) {
-  auto cells = cells_of(budget_files(plan_of("bearing_bin.yaml")).errors);
+  auto cells = cells_of(budget_files(plan_of("bearing_bin_chain.yaml")).errors);
   ASSERT_EQ(cells.size(), 4u);
   EXPECT_EQ(cells.at("none").oracle.translation_error, 0);
+  EXPECT_TRUE(cells.at("none").calibration.perfect()) << "no error but the stated one";
   EXPECT_DOUBLE_EQ(cells.at("translation 0.003").oracle.translation_error, 0.003);
   EXPECT_DOUBLE_EQ(cells.at("rotation 0.05").oracle.rotation_error, 0.05);
   EXPECT_EQ(cells.at("rotation 0.05").oracle.translation_error, 0);
