@@ -41,7 +41,7 @@ TEST(CampaignFaults, EachHasItsOwnClassAndTheOthersAreUntouched) {
   const std::string campaign = "campaign " + tiny_scene(folder) + " --seeds 1:13 --workers 2 --pictured -1 --out ";
   ASSERT_EQ(run_program(campaign + folder.path("sound")).code, 0);
   const ProgramRun run = run_program(campaign + folder.path("run") +
-                                     " --timeout 10 --memory 1000 --plant "
+                                     " --timeout 20 --memory 1000 --plant "
                                      "segfault:2,abort:3,hang:4,leak:5,exit:6,garbage:7,once-segfault:8,once-exit:9");
   EXPECT_EQ(run.code, 5) << run.err;
   const auto sound = by_seed(folder.path("sound/canonical.jsonl"));
@@ -49,7 +49,7 @@ TEST(CampaignFaults, EachHasItsOwnClassAndTheOthersAreUntouched) {
              full = by_seed(folder.path("run/records/records.jsonl"));
   ASSERT_EQ(faulty.size(), 12u);
   const std::map<std::uint64_t, std::pair<std::string, std::string>> expected = {
-      {2, {"Crash", "signal 11"}},    {3, {"Crash", "signal 6"}},    {4, {"Timeout", "10 s"}},
+      {2, {"Crash", "signal 11"}},    {3, {"Crash", "signal 6"}},    {4, {"Timeout", "20 s"}},
       {5, {"OutOfMemory", "memory"}}, {6, {"Crash", "exit code 0"}}, {7, {"Crash", "no record"}}};
   for (const auto& [seed, record] : faulty) {
     const auto planted = expected.find(seed);
