@@ -15,9 +15,9 @@ void plan_sight(const Scenario& s, const TrialContext& context, const PickStart&
   if (s.oracles.planning) {
     const TrueSight known = true_sight(sight.seen, sight.found);
     sight.plan = context.planner->plan(known.found, known.view, known.X_WC, start);
-    return;
+  } else {
+    sight.plan = context.planner->plan(sight.found, sight.seen.view, sight.seen.X_WC_believed, start);
   }
-  sight.plan = context.planner->plan(sight.found, sight.seen.view, sight.seen.X_WC_believed, start);
   record.plan_wall += sight.plan.wall;
 }
 
