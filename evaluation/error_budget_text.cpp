@@ -3,12 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/error_budget.hpp"
+#include "evaluation/rate_json.hpp"
 #include "evaluation/report_text.hpp"
 
 namespace binpick {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 using text::fixed;
 using text::Row;
 
@@ -95,13 +96,6 @@ std::string csv_of(const std::string& table, const BudgetRow& row) {
   return line + "\n";
 }
 
-json to_json(const Rate& rate) {
-  return {{"hits", rate.hits},
-          {"total", rate.total},
-          {"rate", rate.rate},
-          {"interval", {rate.interval.low, rate.interval.high}}};
-}
-
 json to_json(const BudgetGain& gain) {
   return {{"value", gain.value}, {"interval", {gain.interval.low, gain.interval.high}}, {"p", gain.p}};
 }
@@ -112,8 +106,8 @@ json to_json(const std::vector<BudgetRow>& rows) {
     out.push_back({{"name", row.name},
                    {"error", row.error},
                    {"piles", row.piles},
-                   {"cleared", to_json(row.cleared)},
-                   {"picks", to_json(row.picks)},
+                   {"cleared", rate_json(row.cleared, "total", "hits")},
+                   {"picks", rate_json(row.picks, "total", "hits")},
                    {"cleared_gain", to_json(row.cleared_gain)},
                    {"picks_gain", to_json(row.picks_gain)}});
   return out;

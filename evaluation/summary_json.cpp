@@ -1,19 +1,13 @@
 // summary.json: the stable surface of ARCHITECTURE section 14. SI, but stage_ms in milliseconds.
 #include <nlohmann/json.hpp>
 
+#include "evaluation/rate_json.hpp"
 #include "evaluation/summary.hpp"
 
 namespace binpick {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json rate_json(const Rate& rate, const char* total, const char* hits) {
-  return {{total, rate.total},
-          {hits, rate.hits},
-          {"rate", rate.rate},
-          {"interval", {rate.interval.low, rate.interval.high}}};
-}
 
 Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -3,19 +3,13 @@
 
 #include "core/error.hpp"
 #include "core/file_io.hpp"
+#include "evaluation/rate_json.hpp"
 #include "evaluation/sweep_figures.hpp"
 
 namespace binpick {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json rate_json(const Rate& rate, const char* hits, const char* total) {
-  return {{hits, rate.hits},
-          {total, rate.total},
-          {"rate", rate.rate},
-          {"interval", {rate.interval.low, rate.interval.high}}};
-}
 
 Json difference_json(const std::optional<SweepDifference>& d) {
   if (!d) return nullptr;
@@ -30,8 +24,8 @@ Json factor_json(const SweepFactorPlan& plan, const SweepFactor& factor) {
     const SweepLevel& level = factor.levels[l];
     levels.push_back({{"label", plan.levels[l]},
                       {"cells", level.cells},
-                      {"cleared", rate_json(level.cleared, "placed", "dropped")},
-                      {"picks", rate_json(level.picks, "succeeded", "attempted")},
+                      {"cleared", rate_json(level.cleared, "dropped", "placed")},
+                      {"picks", rate_json(level.picks, "attempted", "succeeded")},
                       {"best", factor.best == l},
                       {"difference", difference_json(level.difference)}});
   }
@@ -46,10 +40,10 @@ Json cell_json(const SweepCellPlan& plan, const SweepCell& cell, const char* fin
           {"trials", s.trials},
           {"failed", s.failed},
           {"missing", cell.missing},
-          {"cleared", rate_json(s.cleared, "placed", "dropped")},
-          {"picks", rate_json(s.picks, "succeeded", "attempted")},
-          {"recall_first_look", rate_json(s.recall_first_look, "found", "visible")},
-          {"precision", rate_json(s.precision, "right", "counted")},
+          {"cleared", rate_json(s.cleared, "dropped", "placed")},
+          {"picks", rate_json(s.picks, "attempted", "succeeded")},
+          {"recall_first_look", rate_json(s.recall_first_look, "visible", "found")},
+          {"precision", rate_json(s.precision, "counted", "right")},
           {"translation_error_m", {{"median", s.translation_median}, {"p95", s.translation_p95}}},
           {"rotation_error_rad", {{"median", s.rotation_median}, {"p95", s.rotation_p95}}},
           {"cycle_s", {{"median", s.cycle_median}}},

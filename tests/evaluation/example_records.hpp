@@ -70,4 +70,11 @@ inline TrialRecord trial(std::uint64_t seed, std::vector<PickRecord> picks, int 
   return record;
 }
 
+/// Two piles of ten picks: all succeeded, all but one succeeded.
+inline std::vector<TrialRecord> campaign() {
+  std::vector<PickRecord> good(9, pick(PickOutcome::kSucceeded, 2, 2));
+  good.push_back(pick(PickOutcome::kNoSeal, 2, 1));
+  return {trial(5000, std::vector<PickRecord>(10, pick(PickOutcome::kSucceeded, 2, 2))), trial(5001, good)};
+}
+
 }  // namespace binpick::examples

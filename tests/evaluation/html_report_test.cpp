@@ -11,16 +11,9 @@
 namespace binpick {
 namespace {
 
-using examples::pick;
-using examples::trial;
+using examples::campaign;
 using testing::HasSubstr;
 using testing::Not;
-
-std::vector<TrialRecord> campaign() {
-  std::vector<PickRecord> good(9, pick(PickOutcome::kSucceeded, 2, 2));
-  good.push_back(pick(PickOutcome::kNoSeal, 2, 1));
-  return {trial(5000, std::vector<PickRecord>(10, pick(PickOutcome::kSucceeded, 2, 2))), trial(5001, good)};
-}
 
 PageSources sources() {
   PageSources made;
