@@ -12,18 +12,25 @@
 
 namespace binpick {
 
+namespace {
+
+/// Wilson 1927: the rates from which the share p of n trials is z standard errors away.
+Interval wilson_of(double p, double n, double z) {
+  const double middle = p + z * z / (2 * n);
+  const double spread = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 1 + z * z / n;
+  return {p <= 0 ? 0.0 : std::max(0.0, (middle - spread) / scale),
+          p >= 1 ? 1.0 : std::min(1.0, (middle + spread) / scale)};
+}
+
+}  // namespace
+
 Interval wilson_interval(std::size_t hits, std::size_t total, double confidence) {
   BP_CHECK(hits <= total, hits << " of " << total);
   BP_CHECK(confidence > 0 && confidence < 1, "confidence " << confidence);
   if (total == 0) return {0, 1};
-  // Wilson 1927: the p for which the observed share is z standard errors away.
-  const double z = normal_quantile(0.5 + confidence / 2);
-  const double n = static_cast<double>(total), p = static_cast<double>(hits) / n;
-  const double middle = p + z * z / (2 * n);
-  const double spread = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  const double scale = 1 + z * z / n;
-  return {hits == 0 ? 0.0 : std::max(0.0, (middle - spread) / scale),
-          hits == total ? 1.0 : std::min(1.0, (middle + spread) / scale)};
+  const double n = static_cast<double>(total);
+  return wilson_of(static_cast<double>(hits) / n, n, normal_quantile(0.5 + confidence / 2));
 }
 
 Interval clopper_pearson(std::size_t hits, std::size_t total, double confidence) {
@@ -100,6 +107,17 @@ double jackknife_acceleration(std::span<const ClusterCount> piles, const Cluster
   return squares > 0 ? cubes / (6 * std::pow(squares, 1.5)) : 0;
 }
 
+/// Wilson's interval of the number of independent trials that would know the rate as well as the piles do (Rao and
+/// Scott, Biometrics 48, 1992: total over design effect), at most all of them.
+Interval effective_wilson(std::span<const ClusterCount> piles, const ClusterCount& pooled, double t) {
+  const double rate = pooled.hits / pooled.total, n = static_cast<double>(piles.size());
+  double squares = 0;
+  for (const ClusterCount& pile : piles) squares += std::pow(pile.hits - rate * pile.total, 2);
+  const double variance = n / (n - 1) * squares / (pooled.total * pooled.total);
+  const double independent = rate * (1 - rate);
+  return wilson_of(rate, variance * pooled.total > independent ? independent / variance : pooled.total, t);
+}
+
 }  // namespace
 
 Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples, double confidence) {
@@ -127,13 +145,16 @@ Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int r
   const double rate = pooled.hits / pooled.total;
   const double bias = median_bias(rates, rate), acceleration = jackknife_acceleration(counted, pooled);
   const double n = static_cast<double>(counted.size());
-  const double z = std::sqrt(n / (n - 1)) * boost::math::quantile(boost::math::students_t(n - 1), 0.5 + confidence / 2);
+  const double t = boost::math::quantile(boost::math::students_t(n - 1), 0.5 + confidence / 2);
+  const double z = std::sqrt(n / (n - 1)) * t;
   const auto corrected = [&](double at) {
     const double stretch = 1 - acceleration * (bias + at);
     if (stretch <= 0) return at < 0 ? 0.0 : 1.0;
     return boost::math::cdf(boost::math::normal(), bias + (bias + at) / stretch);
   };
-  return {quantile(rates, corrected(-z)), quantile(rates, corrected(z))};
+  const Interval resampled{quantile(rates, corrected(-z)), quantile(rates, corrected(z))};
+  const Interval wilson = effective_wilson(counted, pooled, t);
+  return {std::min(resampled.low, wilson.low), std::max(resampled.high, wilson.high)};
 }
 
 double quantile(std::vector<double> values, double q) {

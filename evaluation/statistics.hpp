@@ -37,9 +37,10 @@ struct ClusterCount {
 };
 /// Bootstrap of sum(hits) / sum(total) over whole piles, corrected for bias and skewness (BCa, Efron 1987), its normal
 /// quantiles widened to Student's times sqrt(n / (n - 1)), since a resample of few piles varies too little (Hesterberg
-/// 2015): thirty piles are then covered as often as stated (`bench gate`, docs/gate.md). With fewer than two piles, or
-/// when every pile agrees (all hits or none), it falls back to the Wilson interval of the pooled counts, which is then
-/// the honest one.
+/// 2015). Never narrower on either side than Wilson's interval at the effective number of trials (Rao and Scott 1992),
+/// since thirty piles that hold none of the bad ones have nothing to resample them from. How often it holds the truth:
+/// `bench gate`, docs/gate.md. With fewer than two piles, or when every pile agrees (all hits or none), it falls back
+/// to the Wilson interval of the pooled counts, which is then the honest one.
 Interval cluster_bootstrap(std::span<const ClusterCount> piles, Seed seed, int resamples = 4000,
                            double confidence = 0.95);
 
