@@ -214,6 +214,8 @@ LocatedBin locate_bin(const Scene& scene, const BinLocalisationConfig& config) {
   if (scene.noise.focal_baseline > 0 && config.ripple_sigma > 0) {
     out.ripple = ripple_on_walls(scene, samples, faces, found, config.ripple_sigma);
     for (FaceSample& s : samples) s.distance += s.per_depth * s.z * s.z * out.ripple.at(s.z);
+    // What lay at the edge of the reach may lie beyond it now, where the cells' histograms end.
+    std::erase_if(samples, [&](const FaceSample& s) { return !(std::abs(s.distance) < config.reach); });
     if (!fit_cells(scene, equations_of(scene, samples, faces, config.reach), config, found, out)) return out;
   }
   out.found = true;
