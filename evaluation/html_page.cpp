@@ -1,5 +1,6 @@
 #include "evaluation/html_page.hpp"
 
+#include "evaluation/base64.hpp"
 #include "evaluation/page_assets.hpp"
 #include "evaluation/report_text.hpp"
 
@@ -25,6 +26,16 @@ std::string replay_blocks(const PageSources& sources) {
 }
 
 }  // namespace
+
+std::string figures(const std::vector<PageSources::Picture>& pictures) {
+  std::string html;
+  for (const PageSources::Picture& picture : pictures) {
+    const std::string caption = text::html(picture.caption);
+    html += "<figure><img src=\"data:image/png;base64," + base64(picture.png) + "\" alt=\"" + caption +
+            "\"><figcaption>" + caption + "</figcaption></figure>";
+  }
+  return html;
+}
 
 std::string replay_section(const PageSources& sources) {
   if (sources.replays.empty()) return "";

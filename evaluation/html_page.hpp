@@ -16,6 +16,9 @@ struct Page {
 
 std::string whole_page(const Page& page);
 
+/// Embedded, each with its caption.
+std::string figures(const std::vector<PageSources::Picture>& pictures);
+
 /// The replay viewer's place in the page; nothing where there are no replays.
 std::string replay_section(const PageSources& sources);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "evaluation/base64.hpp"
 #include "evaluation/html_page.hpp"
 #include "evaluation/html_plots.hpp"
 #include "evaluation/paper_figures.hpp"
@@ -36,13 +35,7 @@ std::string cards(const CampaignSummary& s) {
 
 std::string opening(const PageSources& sources) {
   if (sources.opening.empty()) return "";
-  std::string html = "<div class=\"plots opening\">";
-  for (const PageSources::Picture& picture : sources.opening) {
-    const std::string caption = text::html(picture.caption);
-    html += "<figure><img src=\"data:image/png;base64," + base64(picture.png) + "\" alt=\"" + caption +
-            "\"><figcaption>" + caption + "</figcaption></figure>";
-  }
-  return html + "</div>";
+  return "<div class=\"plots opening\">" + html::figures(sources.opening) + "</div>";
 }
 
 const ReportTable& table_of(const Tables& tables, const std::string& id) {

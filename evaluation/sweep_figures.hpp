@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/report.hpp"
 #include "evaluation/summary.hpp"
 #include "evaluation/sweep_plan.hpp"
 
@@ -84,6 +85,8 @@ std::vector<std::size_t> not_worse(const SweepResult& result);
 std::string sweep_plan_text(const SweepPlan& plan);
 std::string sweep_text(const SweepResult& result);
 std::string sweep_markdown(const SweepResult& result);
+/// One self-contained page; what stands beside it: the cells' folders, to which it links.
+std::string html_sweep(const SweepResult& result, const std::vector<PageSources::Picture>& heat_maps);
 std::string sweep_cells_csv(const SweepResult& result);
 std::string sweep_factors_csv(const SweepResult& result);
 /// SI and radians; null: not known. `pictures`: file of each heat map, or none at all.

@@ -1,6 +1,6 @@
 // binpick report RUN...: writes RUN/report.html, tables/, results.md, picks.csv and summary.json from the records,
-// prints the table; of several runs one table with a row each. --replays N: so many replays in the page, run again
-// where the campaign kept none.
+// prints the table; of several runs one table with a row each; of a sweep's folder the reports of all its cells and its
+// own. --replays N: so many replays in the page, run again where the campaign kept none.
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,9 @@
 #include "core/error.hpp"
 #include "evaluation/report.hpp"
 #include "tools/commands.hpp"
+#include "tools/sweep_picture.hpp"
 #include "trials/run_report.hpp"
+#include "trials/sweep_run.hpp"
 
 namespace binpick {
 namespace {
@@ -42,18 +44,32 @@ CampaignSummary summary_of(const std::string& folder, const Options& options) {
   return write_reports(folder, campaign_wall(folder), report, &progress);
 }
 
+// Every cell's page, then the sweep's own.
+int report_sweep(const Options& options) {
+  const std::string& folder = options.folders.front();
+  if (options.folders.size() > 1) throw SpecError(folder + ": is a sweep, which is reported alone");
+  for (const SweepCellPlan& cell : read_sweep_plan(folder).cells)
+    if (const std::string run = folder + "/" + cell.folder; std::filesystem::is_directory(run + "/records"))
+      summary_of(run, options);
+  const SweepResult result = read_sweep_result(folder);
+  write_sweep_files(result, folder);
+  std::cout << (options.markdown ? sweep_markdown(result) : sweep_text(result)) << std::flush;
+  return 0;
+}
+
 }  // namespace
 
 Action add_report(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("report", "tables and a page from a run folder; several: side by side");
-  command->add_option("run", options->folders, "run folders")->required();
+  command->add_option("run", options->folders, "run folders, or the folder of a sweep")->required();
   command->add_flag("--markdown", options->markdown, "print the Markdown tables instead of the short one");
   command
       ->add_option("--replays", options->replays,
                    "replays in the page, failed trials first; run again where none is kept (default: up to 20 kept)")
       ->check(CLI::Range(0, 1000));
   return [options] {
+    if (is_sweep_folder(options->folders.front())) return report_sweep(*options);
     std::vector<NamedSummary> campaigns;
     for (const std::string& folder : options->folders)
       campaigns.push_back(

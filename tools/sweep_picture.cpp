@@ -168,6 +168,7 @@ Image<Rgb> heat_map_picture(const SweepResult& result, std::size_t first) {
 
 void write_sweep_files(const SweepResult& result, const std::string& folder) {
   std::vector<std::string> pictures;
+  std::vector<PageSources::Picture> shown;
   for (std::size_t m = 0; m < result.heat_maps.size(); ++m) {
     const HeatMap& map = result.heat_maps[m];
     if (m > 0 && same_factors(map, result.heat_maps[m - 1])) {
@@ -177,9 +178,14 @@ void write_sweep_files(const SweepResult& result, const std::string& folder) {
     const auto name = [&](std::size_t factor) { return file_word(result.plan.factors[factor].name); };
     pictures.push_back("heat_" + std::to_string(map.rows + 1) + "_" + name(map.rows) + "_" +
                        std::to_string(map.columns + 1) + "_" + name(map.columns) + ".png");
-    write_png(folder + "/" + pictures.back(), heat_map_picture(result, m));
+    const std::string path = folder + "/" + pictures.back();
+    write_png(path, heat_map_picture(result, m));
+    shown.push_back(
+        {result.plan.factors[map.rows].name + " x " + result.plan.factors[map.columns].name + ": " + pictures.back(),
+         read_file(path)});
   }
   write_file(folder + "/sweep.json", sweep_json(result, pictures));
+  write_file(folder + "/report.html", html_sweep(result, shown));
   write_file(folder + "/sweep.md", sweep_markdown(result));
   write_file(folder + "/cells.csv", sweep_cells_csv(result));
   write_file(folder + "/factors.csv", sweep_factors_csv(result));

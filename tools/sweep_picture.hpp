@@ -12,8 +12,8 @@ namespace binpick {
 /// grey.
 Image<Rgb> heat_map_picture(const SweepResult& result, std::size_t first);
 
-/// Writes a picture for every pair of factors, `sweep.json`, `sweep.md`, `cells.csv` and `factors.csv` into the
-/// sweep's folder. Throws StorageError.
+/// Writes a picture for every pair of factors, `report.html` that shows them, `sweep.json`, `sweep.md`, `cells.csv` and
+/// `factors.csv` into the sweep's folder. Throws StorageError.
 void write_sweep_files(const SweepResult& result, const std::string& folder);
 
 }  // namespace binpick

@@ -184,6 +184,22 @@ TEST(SweepFigures, ThePlanReadsBackFromItsFile) {
   EXPECT_THAT(error("\"levels\": [\n    0,", "\"levels\": [\n    7,"), HasSubstr("does not fit the factors"));
 }
 
+TEST(SweepFigures, ThePageShowsMapsAndLeadsToCellsAndNoNameIsMarkup) {
+  SweepPlan plan = plan_of(1, 2, 4);
+  const std::string attack = "\"><script>alert('x')</script><img src=x onerror=alert(1)>&";
+  plan.name = plan.factors[0].name = attack;
+  plan.cells[0].values[0] = attack;
+  plan.cells[1].folder = "javascript:alert(1)/..";
+  const SweepResult result = sweep_result(plan, std::vector<SweepRecords>(2, records_of(plan, 9)), kNoResamples);
+  const std::string page = html_sweep(result, {{attack, "no real PNG"}});
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<img src=x"), std::string::npos);
+  EXPECT_THAT(page, HasSubstr("<img src=\"data:image/png;base64,bm8gcmVhbCBQTkc=\""));
+  EXPECT_THAT(page, HasSubstr("Best cell: "));
+  EXPECT_THAT(page, HasSubstr("href=\"cells/h0-c0/report.html\""));
+  EXPECT_EQ(page.find("href=\"javascript"), std::string::npos);
+}
+
 TEST(SweepFigures, TablesForMachinesHoldOneRowEach) {
   SweepPlan plan = plan_of(1, 2, 3);
   plan.factors[1].levels[1] = plan.cells[1].values[1] = "a, \"b\"";

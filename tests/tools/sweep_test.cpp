@@ -56,8 +56,8 @@ TEST(Sweep, IsCompletedWhereItWasStoppedAndMergedFromShards) {
   EXPECT_EQ(figures.at("seeds"), json({1, 3}));
   for (const json& cell : figures.at("cells")) EXPECT_EQ(cell.at("trials"), 2);
   const std::string picture = figures.at("heat_maps").at(0).at("picture");
-  for (const std::string& file :
-       {std::string("sweep.md"), std::string("cells.csv"), std::string("factors.csv"), picture})
+  for (const std::string& file : {std::string("report.html"), std::string("sweep.md"), std::string("cells.csv"),
+                                  std::string("factors.csv"), picture})
     EXPECT_TRUE(fs::exists(whole + "/" + file)) << file;
   // A cell is an ordinary run.
   const std::string cell = whole + "/" + figures.at("cells").at(3).at("folder").get<std::string>();
