@@ -6,8 +6,7 @@
 
 #include "evaluation/sweep_rows.hpp"
 
-namespace binpick {
-namespace sweep {
+namespace binpick::sweep {
 namespace {
 
 using text::fixed;
@@ -129,5 +128,4 @@ std::vector<std::string> notes(const SweepResult& result) {
   return notes;
 }
 
-}  // namespace sweep
-}  // namespace binpick
+}  // namespace binpick::sweep

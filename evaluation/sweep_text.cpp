@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "evaluation/report_table.hpp"
 #include "evaluation/sweep_rows.hpp"
 
 namespace binpick {
@@ -15,13 +16,6 @@ std::string cell_label(const SweepCellPlan& cell) {
 namespace {
 
 using text::Row;
-
-std::string csv(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string number(double value) {
   if (!std::isfinite(value)) return "";
@@ -78,19 +72,19 @@ std::string sweep_markdown(const SweepResult& result) {
 
 std::string sweep_cells_csv(const SweepResult& result) {
   std::string out;
-  for (const SweepFactorPlan& factor : result.plan.factors) out += csv(factor.name) + ",";
+  for (const SweepFactorPlan& factor : result.plan.factors) out += csv_cell(factor.name) + ",";
   out += std::string("trials,failed,missing,") + kShareColumns +
          ",recall_first_look,precision,translation_p95_m,rotation_p95_rad,cycle_median_s," + kDifferenceColumns +
          ",folder\n";
   for (std::size_t c = 0; c < result.cells.size(); ++c) {
     const SweepCell& cell = result.cells[c];
     const CampaignSummary& s = cell.summary;
-    for (const std::string& value : result.plan.cells[c].values) out += csv(value) + ",";
+    for (const std::string& value : result.plan.cells[c].values) out += csv_cell(value) + ",";
     out += std::to_string(s.trials) + "," + std::to_string(s.failed) + "," + std::to_string(cell.missing) + "," +
            csv(s.cleared) + "," + csv(s.picks) + "," + number(s.recall_first_look.rate) + "," +
            number(s.precision.rate) + "," + number(s.translation_p95) + "," + number(s.rotation_p95) + "," +
            number(s.cycle_median) + "," + csv(cell.difference) + "," +
-           sweep::finding(result.best == c, cell.difference) + "," + csv(result.plan.cells[c].folder) + "\n";
+           sweep::finding(result.best == c, cell.difference) + "," + csv_cell(result.plan.cells[c].folder) + "\n";
   }
   return out;
 }
@@ -100,7 +94,7 @@ std::string sweep_factors_csv(const SweepResult& result) {
   for (std::size_t f = 0; f < result.factors.size(); ++f)
     for (std::size_t l = 0; l < result.factors[f].levels.size(); ++l) {
       const SweepLevel& level = result.factors[f].levels[l];
-      out += csv(result.plan.factors[f].name) + "," + csv(result.plan.factors[f].levels[l]) + "," +
+      out += csv_cell(result.plan.factors[f].name) + "," + csv_cell(result.plan.factors[f].levels[l]) + "," +
              std::to_string(level.cells) + "," + csv(level.cleared) + "," + csv(level.picks) + "," +
              csv(level.difference) + "," + sweep::finding(result.factors[f].best == l, level.difference) + "\n";
     }

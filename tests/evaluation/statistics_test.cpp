@@ -106,8 +106,7 @@ TEST(ClusterBootstrap, TwoOppositePiles) {
   EXPECT_EQ(wide.low, 0);
   EXPECT_EQ(wide.high, 1);
   // At a confidence of 0.2 the resamples give 0.5 alone (32 % .. 68 % lie inside the middle half): Wilson's interval
-  // rules. Two piles are worth one trial, and Student's quantile of one degree of freedom is a tangent: 0.5 -+ sine
-  // / 2.
+  // rules. Two piles are worth one trial, and Student's quantile of one degree of freedom is a tangent.
   const Interval narrow = cluster_bootstrap(piles, Seed{2}, 4000, 0.2);
   EXPECT_NEAR(narrow.low, 0.5 - 0.5 * std::sin(0.1 * M_PI), 1e-9);
   EXPECT_NEAR(narrow.high, 0.5 + 0.5 * std::sin(0.1 * M_PI), 1e-9);

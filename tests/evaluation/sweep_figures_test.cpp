@@ -203,12 +203,13 @@ TEST(SweepFigures, ThePageShowsMapsAndLeadsToCellsAndNoNameIsMarkup) {
 TEST(SweepFigures, TablesForMachinesHoldOneRowEach) {
   SweepPlan plan = plan_of(1, 2, 3);
   plan.factors[1].levels[1] = plan.cells[1].values[1] = "a, \"b\"";
+  plan.factors[0].levels[0] = "=1+1";
   const SweepResult result = sweep_result(plan, std::vector{records_of(plan, 10), records_of(plan, 5)});
   const std::string cells = sweep_cells_csv(result), factors = sweep_factors_csv(result);
   EXPECT_EQ(std::count(cells.begin(), cells.end(), '\n'), 3);
   EXPECT_EQ(std::count(factors.begin(), factors.end(), '\n'), 4);
   EXPECT_THAT(cells, HasSubstr("h0,\"a, \"\"b\"\"\",3,0,0,15,30,0.5"));
-  EXPECT_THAT(factors, HasSubstr("height,h0,2,45,60,0.75"));
+  EXPECT_THAT(factors, HasSubstr("height,'=1+1,2,45,60,0.75"));
   EXPECT_THAT(sweep_markdown(result), HasSubstr("| h0 | c0 |"));
 }
 
